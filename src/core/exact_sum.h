@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A sum that does not depend on the order of its terms, so a force on a wall has the same bits for any number of ranks.
+//
+// A term is rounded to a multiple of 2^-60 and kept in two integers, x = high 2^-10 + low 2^-60. Integers add exactly in
+// any order. In newtons the resolution is 1e-18 N, and terms may be up to 2^50 = 1e15 N, far beyond any force here.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace cdem {
+
+class ExactSum {
+public:
+  // high, low, and the number of terms that are not finite or too large; sums of ranks are sums of these words.
+  using Words = std::array<std::int64_t, 3>;
+
+  ExactSum() = default;
+  explicit ExactSum(const Words &words) : high(words[0]), low(words[1]), bad(words[2]) {}
+
+  void add(double x) {
+    if (!(std::fabs(x) < max_term)) {
+      ++bad;
+      return;
+    }
+    const double coarse = std::nearbyint(x * coarse_scale);
+    high += static_cast<std::int64_t>(coarse);
+    low += static_cast<std::int64_t>(std::nearbyint((x - coarse / coarse_scale) * fine_scale));
+    carry();
+  }
+
+  Words words() const { return {high, low, bad}; }
+
+  // Not a number if a term was none, or too large: a broken force must not look like a sound one.
+  double value() const {
+    if (bad) return std::numeric_limits<double>::quiet_NaN();
+    ExactSum s = *this;
+    s.carry();
+    return static_cast<double>(s.high) / coarse_scale + static_cast<double>(s.low) / fine_scale;
+  }
+
+private:
+  static constexpr double max_term = 0x1p50, coarse_scale = 0x1p10, fine_scale = 0x1p60;
+  static constexpr std::int64_t unit = std::int64_t{1} << 50; // fine steps in a coarse one
+
+  // Brings low into [-unit/2, unit/2): room for any number of terms, and one form for one value.
+  void carry() {
+    const std::int64_t shifted = low + unit / 2;
+    const std::int64_t whole = (shifted >= 0 ? shifted : shifted - unit + 1) / unit;
+    high += whole;
+    low -= whole * unit;
+  }
+
+  std::int64_t high = 0, low = 0, bad = 0;
+};
+
+} // namespace cdem
