@@ -4,9 +4,12 @@
 #include "command.h"
 #include "compute.h"
 #include "fix.h"
+#include "fix_cdem_history.h"
+#include "fix_cdem_integrate.h"
 #include "library.h"
 #include "lmptype.h"
 #include "pair.h"
+#include "pair_cdem.h"
 #include "version_cdem.h"
 
 #include <string>
@@ -44,8 +47,9 @@ template <class T> Shearbox::Style command(const char *name) {
 // To add a style: include its header above and name it here.
 const std::vector<Shearbox::Style> &Shearbox::styles() {
   static const std::vector<Style> all = {
-      // pair<PairCDEM>("cdem"),
-      // fix<FixCDEMIntegrate>("cdem/integrate"),
+      pair<PairCDEM>("cdem"),
+      fix<FixCDEMHistory>("cdem/history"),
+      fix<FixCDEMIntegrate>("cdem/integrate"),
       // compute<ComputeCDEMTRM>("cdem/trm"),
       // command<CDEMCreate>("cdem/create"),
   };

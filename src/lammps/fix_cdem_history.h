@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// fix cdem/history: made by pair style cdem, not by the user. Between rebuilds the history of contacts lives in the pair
+// style's list; this fix holds it by grain while that list is rebuilt, when grains migrate, and in restart files.
+#pragma once
+
+#include "fix.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class PairCDEM;
+
+class FixCDEMHistory : public Fix {
+ public:
+  static constexpr const char *ID = "CDEM_HISTORY";
+
+  // A contact as one of its grains remembers it: the other grain, the disc of either, and the history in the sense of
+  // the pair, whose first disc belongs to the grain of the lower id.
+  struct Contact {
+    tagint partner;
+    int own_disc, other_disc;
+    double es, en;
+  };
+
+  FixCDEMHistory(LAMMPS *, int, char **);
+  ~FixCDEMHistory() override;
+
+  // Takes the place of all that was stored; first[i] ... of grain i's contacts in `contacts`.
+  void store(const std::vector<int> &count, const std::vector<std::pair<int, Contact>> &by_grain);
+  const Contact *find_contact(int i, tagint partner, int own_disc, int other_disc) const;
+
+  int setmask() override;
+  void pre_exchange() override;
+  void post_run() override;
+  double memory_usage() override;
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  void write_restart(FILE *) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int size_restart(int) override;
+  int maxsize_restart() override;
+
+  PairCDEM *pair = nullptr;
+
+ private:
+  int pack(int i, double *buf) const;
+  int unpack(int i, const double *buf);
+
+  std::vector<int> first, count;      // per atom, into contacts
+  std::vector<Contact> contacts;      // arriving grains append; store() starts afresh
+};
+
+}    // namespace LAMMPS_NS

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// fix ID group cdem/integrate [dt check|any|auto [MAX]]
+//
+// Velocity Verlet for grains in the plane, with the mass m and the inertia I of a disc, I = m r^2/2. Atoms outside the
+// group are walls: contacts don't move them. Exactly one fix of this style must exist.
+//
+//   dt check     refuse a time step beyond the stability limit of the scene (default)
+//   dt any       run with any time step
+//   dt auto MAX  set the time step to the smaller of 0.9 x limit and MAX (s, default: no maximum)
+//
+// Scalar: stability limit of the scene (s), see core/stability.h.
+// Per-atom array: 1, 2 acceleration (m/s^2), 3 angular acceleration (rad/s^2), 4 angle turned so far (rad).
+// A run that goes on, also after a restart, starts from the stored acceleration and so continues to the same bits.
+#pragma once
+
+#include "fix.h"
+
+namespace LAMMPS_NS {
+
+class FixCDEMIntegrate : public Fix {
+ public:
+  enum Column { AX, AY, ALPHA, ANGLE, NCOLUMNS };
+
+  // The fix of this style, or null.
+  static FixCDEMIntegrate *find(LAMMPS *);
+
+  FixCDEMIntegrate(LAMMPS *, int, char **);
+  ~FixCDEMIntegrate() override;
+
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void initial_integrate(int) override;
+  void final_integrate() override;
+  double compute_scalar() override;
+
+  double memory_usage() override;
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int size_restart(int) override;
+  int maxsize_restart() override;
+
+  bool is_free(int i) const;
+  // Whether the stored acceleration belongs to the present state; else setup() takes it from the forces.
+  bool knows_acceleration(int i) const;
+  // Share of the half step by which the dashpots' velocity is carried forward: second order in time, and within the
+  // stability limit of the scheme without it.
+  double prediction_weight() const;
+
+  double **state = nullptr;    // NCOLUMNS per atom
+
+ private:
+  enum class Step { check, any, automatic };
+
+  double scene_limit() const;
+  void apply_step_rule();
+  double inertia(int i) const;
+  void take_acceleration(int i);
+
+  Step rule = Step::check;
+  double max_step;
+  double limit = 0;
+  bigint valid_step = -1;    // the step at whose end `state` was written
+};
+
+}    // namespace LAMMPS_NS
