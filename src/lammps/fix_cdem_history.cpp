@@ -70,9 +70,12 @@ void FixCDEMHistory::post_run()
   if (pair) pair->release_history();
 }
 
-void FixCDEMHistory::write_restart(FILE *)
+// Called before the grains are packed. LAMMPS expects a global block: an empty one.
+void FixCDEMHistory::write_restart(FILE *fp)
 {
   if (pair) pair->store_history();
+  const int size = 0;
+  if (comm->me == 0) fwrite(&size, sizeof(int), 1, fp);
 }
 
 double FixCDEMHistory::memory_usage()
