@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Curves and files as the decks write them, with known answers and without an engine."""
+
+from pathlib import Path
+
+import numpy as np
+
+STEPS_PER_ROW = 5000
+
+
+def softening(s: np.ndarray, peak: float, at: float, residual: float) -> np.ndarray:
+    """s (a + c s) / (a + b s)^2: peak 1 / (4 (b - c)) at a / (b - 2 c), residual c / b^2 < peak."""
+    q = 1 / (4 * peak)
+    b = (1 - np.sqrt(1 - 4 * residual * q)) / (2 * residual)
+    c = b - q
+    a = at * (b - 2 * c)
+    return s * (a + c * s) / (a + b * s) ** 2
+
+
+def correlated_noise(rng: np.random.Generator, rows: int, deviation: float, length: float) -> np.ndarray:
+    """First-order autoregressive noise whose correlation falls to 1/e over `length` rows."""
+    factor = np.exp(-1 / length)
+    noise = rng.normal(size=rows) * deviation
+    for i in range(1, rows):
+        noise[i] = factor * noise[i - 1] + np.sqrt(1 - factor**2) * noise[i]
+    return noise
+
+
+def curves(sigma: float, travel: float, rows: int = 800, seed: int = 1) -> dict[str, np.ndarray]:
+    """A whole shear phase: peak 0.5 sigma + 5 kPa at 2.5 mm of 8, lid rising steepest near 1.6 mm."""
+    rng = np.random.default_rng(seed + int(sigma))
+    s = (np.arange(rows) + 0.5) * travel / rows
+    x = 8 * s / travel
+    tau = softening(x, 0.5 * sigma + 5, 2.5, 0.42 * sigma) + correlated_noise(rng, rows, 0.02 * sigma, 8)
+    lid = 0.5 / (1 + np.exp(-(x - 1.6) / 0.5)) - 0.5 / (1 + np.exp(1.6 / 0.5)) - 0.03 * x * np.exp(-x)
+    return {
+        "step": (np.arange(rows) + 1) * STEPS_PER_ROW,
+        "displacement_mm": s,
+        "tau_kPa": tau,
+        "sigma_kPa": sigma * (1 + 0.001 * rng.normal(size=rows)),
+        "lid_mm": lid + correlated_noise(rng, rows, 0.002, 8),
+        "tau_upper_kPa": tau + rng.normal(size=rows),
+        "trm": 0.6 + 0.2 * (1 - np.exp(-x)),
+        "kinetic_J": np.full(rows, 1e-4),
+        "dangerous": np.zeros(rows),
+    }
+
+
+def write_shear(path: Path, columns: dict[str, np.ndarray], rows: slice = slice(None), mode: str = "w") -> None:
+    """shear.dat as `fix ave/time` writes it."""
+    table = np.column_stack(list(columns.values()))[rows]
+    with path.open(mode, encoding="utf-8") as stream:
+        if mode == "w":
+            stream.write("# Time-averaged data for fix curve\n# " + " ".join(columns) + "\n")
+        for row in table:
+            stream.write(f"{int(row[0])} " + " ".join(f"{value:.10g}" for value in row[1:]) + "\n")
+
+
+def write_row(path: Path, **values: float) -> None:
+    """A csv file of a header and a row."""
+    path.write_text(",".join(values) + "\n" + ",".join(f"{v:.10g}" for v in values.values()) + "\n", encoding="utf-8")
+
+
+def packing(width: float, height: float, radius: float) -> np.ndarray:
+    """(n, 2) centres of a hexagonal packing of equal discs in the box, in m."""
+    across = int((width - 2 * radius) / (2 * radius)) + 1
+    up = int((height - 2 * radius) / (np.sqrt(3) * radius)) + 1
+    centres = [
+        (radius + 2 * radius * i + radius * (j % 2), radius + np.sqrt(3) * radius * j)
+        for j in range(up)
+        for i in range(across - j % 2)
+    ]
+    return np.array(centres)
+
+
+def walls(width: float, half_height: float, diameter: float, shift: float) -> np.ndarray:
+    """(n, 2) centres of floor, lid, sides and flanges; the lower half is moved by `shift`."""
+    columns = np.arange(half_height - diameter / 2, -diameter, -diameter)
+    floor = np.arange(diameter / 2, width, diameter)
+    out = np.arange(1, 6) * diameter
+    lower = [(x, -diameter / 2) for x in floor]
+    for y in columns:
+        lower += [(-diameter / 2, y), (width + diameter / 2, y)]
+    lower += [(-diameter / 2 - d, half_height - diameter / 2) for d in out]
+    lower += [(width + diameter / 2 + d, half_height - diameter / 2) for d in out]
+    upper = [(x, 2 * half_height - y) for x, y in lower]
+    return np.array([(x + shift, y) for x, y in lower] + upper)
+
+
+def write_frames(folder: Path, steps: list[int], travel: float, width: float = 0.1, half_height: float = 0.05) -> int:
+    """grains.dump, discs.dump and contacts.dump of a hexagonal packing that shears homogeneously; grains are returned."""
+    radius = 0.003
+    start = packing(width, 2 * half_height, radius)
+    texts: dict[str, list[str]] = {"grains": [], "discs": [], "contacts": []}
+    for number, step in enumerate(steps):
+        shear = travel * 1e-3 * number / max(1, len(steps) - 1)
+        centres = start + np.column_stack(
+            [shear * (0.5 - start[:, 1] / (2 * half_height)) + shear / 2, 0 * start[:, 1]]
+        )
+        angle = 2 * shear / radius * np.sin(40 * start[:, 0]) * np.exp(-(((start[:, 1] - half_height) / 0.02) ** 2))
+        border = walls(width, half_height, 2 * radius, shear)
+        where = np.vstack([centres, border])
+        angles = np.concatenate([angle, np.zeros(len(border))])
+        types = [1] * len(centres) + [2] * len(border)
+        rows = list(zip(types, where, angles))
+        texts["grains"].append(
+            _frame(
+                step,
+                "ATOMS id type x y vx vy omega radius angle trm",
+                [f"{i + 1} {t} {x:.8g} {y:.8g} 0 0 0 {radius} {a:.6g} 0.7" for i, (t, (x, y), a) in enumerate(rows)],
+            )
+        )
+        texts["discs"].append(
+            _frame(
+                step,
+                "ENTRIES index " + " ".join(f"c_discs[{k}]" for k in range(1, 8)),
+                [f"{i + 1} {i + 1} 1 {x:.8g} {y:.8g} {radius} {a:.6g} {t}" for i, (t, (x, y), a) in enumerate(rows)],
+            )
+        )
+        texts["contacts"].append(
+            _frame(
+                step,
+                "ENTRIES index " + " ".join(f"c_contacts[{k}]" for k in range(1, 15)),
+                _contact_rows(centres, radius),
+            )
+        )
+    for name, frames in texts.items():
+        (folder / f"{name}.dump").write_text("".join(frames), encoding="utf-8")
+    return len(start)
+
+
+def _contact_rows(centres: np.ndarray, radius: float) -> list[str]:
+    rows = []
+    for i, a in enumerate(centres):
+        for j in range(i):
+            b = centres[j]
+            distance = float(np.hypot(*(a - b)))
+            if distance < 2.02 * radius:
+                n = (a - b) / distance
+                force = 100 * (1 + n[0] * n[1]) * (1 + 0.5 * np.sin(300 * a[0]))
+                x, y = (a + b) / 2
+                rows.append(
+                    f"{len(rows) + 1} {i + 1} {j + 1} 1 1 {x:.8g} {y:.8g} {force:.6g} 0 {force * n[0]:.6g} "
+                    f"{force * n[1]:.6g} {n[0]:.6g} {n[1]:.6g} 1e-6 0"
+                )
+    return rows
+
+
+def _frame(step: int, columns: str, rows: list[str]) -> str:
+    kind = columns.split()[0]
+    return (
+        f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF {kind}\n{len(rows)}\nITEM: BOX BOUNDS ff ff pp\n"
+        f"-1 1\n-1 1\n-0.5 0.5\nITEM: {columns}\n" + "".join(row + "\n" for row in rows)
+    )

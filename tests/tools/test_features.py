@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The three features on curves that have them and on curves that do not."""
+
+import numpy as np
+import pytest
+from synthetic import correlated_noise, curves
+
+from shearbox_tools import features
+from shearbox_tools.peak import find_peak
+from shearbox_tools.polynomial import fit_curve
+from shearbox_tools.strength import fit_line
+
+SIGMA = np.array([100.0, 200, 300, 400])
+
+
+def judged(tau: np.ndarray) -> features.Verdict:
+    return features.proportional(SIGMA[: len(tau)], tau, fit_line(SIGMA[: len(tau)], tau, np.ones(len(tau))))
+
+
+def test_proportional():
+    assert judged(np.array([55.0, 104, 151, 206])).holds is True
+    assert judged(np.array([55.0, 104, 103, 206])).holds is False, "must rise with every stress"
+    assert judged(np.array([50.0, 60, 61, 200])).holds is False, "must be a line"
+    assert judged(np.array([55.0, 104])).holds is None
+
+
+def fits(lid: np.ndarray | None = None):
+    data = curves(200, 8)
+    s = data["displacement_mm"]
+    tau = fit_curve(s, data["tau_kPa"])
+    return tau, find_peak(tau), fit_curve(s, data["lid_mm"] if lid is None else lid)
+
+
+def test_dilation_and_its_steepest_point():
+    tau, peak, lid = fits()
+    position, rate = features.steepest_dilatancy(lid)
+    assert position == pytest.approx(1.6, abs=0.3)
+    assert rate == pytest.approx(0.25, abs=0.05)
+    assert features.dilates(lid, peak).holds is True
+    assert features.peak_at_steepest(tau, peak, lid).holds is True
+
+
+def test_contraction_does_not_dilate():
+    noise = correlated_noise(np.random.default_rng(1), 800, 0.002, 8)
+    s = curves(200, 8)["displacement_mm"]
+    tau, peak, lid = fits(-0.05 * s + noise)
+    assert features.dilates(lid, peak).holds is False
+    assert features.peak_at_steepest(tau, peak, lid).holds is False
+
+
+def test_flat_lid_within_its_noise_does_not_dilate():
+    _, peak, lid = fits(correlated_noise(np.random.default_rng(2), 800, 0.01, 8))
+    assert features.dilates(lid, peak).holds is False
+
+
+def test_late_dilation_is_not_at_the_peak():
+    data = curves(200, 8)
+    s = data["displacement_mm"]
+    tau = fit_curve(s, 100 * s * np.exp(1 - s / 5) / 5 + correlated_noise(np.random.default_rng(3), 800, 1, 8))
+    lid = fit_curve(s, 0.5 / (1 + np.exp(-(s - 1.2) / 0.4)) + correlated_noise(np.random.default_rng(4), 800, 0.002, 8))
+    assert features.peak_at_steepest(tau, find_peak(tau), lid).holds is False

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The fitted curve and its peak against curves whose peak is known."""
+
+import numpy as np
+import pytest
+from synthetic import correlated_noise, softening
+
+from shearbox_tools.peak import find_peak, turning_points
+from shearbox_tools.polynomial import DEGREES, block_averages, correlation_length, fit_curve
+
+TRAVEL = 8.0
+ROWS = 800
+
+
+def displacement() -> np.ndarray:
+    return (np.arange(ROWS) + 0.5) * TRAVEL / ROWS
+
+
+@pytest.mark.parametrize("degree", DEGREES)
+def test_exact_polynomial_is_found_with_its_degree(degree):
+    s = displacement()
+    truth = np.polynomial.Chebyshev.basis(degree, domain=[0, TRAVEL])
+    fit = fit_curve(s, truth(s) + 1e-3 * np.random.default_rng(degree).normal(size=ROWS))
+    assert fit.degree == degree
+    assert np.max(np.abs(fit.series(s) - truth(s))) < 1e-3
+
+
+def test_peak_of_a_parabola_is_exact():
+    s = displacement()
+    peak = find_peak(fit_curve(s, 80 - 3 * (s - 3.25) ** 2))
+    assert peak.value == pytest.approx(80, abs=1e-6)
+    assert peak.position == pytest.approx(3.25, abs=1e-6)
+    assert not peak.at_boundary
+
+
+@pytest.mark.parametrize("at", [1.2, 2.5, 4.0])
+def test_peak_of_a_noisy_softening_curve(at):
+    s = displacement()
+    deviations, errors = [], []
+    for seed in range(12):
+        noise = correlated_noise(np.random.default_rng(seed), ROWS, 4, 8)
+        peak = find_peak(fit_curve(s, softening(s, 80, at, 60) + noise))
+        deviations.append(peak.value - 80)
+        errors.append(peak.value_error)
+    assert abs(np.mean(deviations)) < 2.0  # 2.5 % of the peak with noise of 5 %
+    assert np.max(np.abs(deviations)) < 6.0
+    assert 0.4 < np.mean(errors) < 4.0
+
+
+def test_uncertainty_grows_with_the_noise():
+    s = displacement()
+    noise = correlated_noise(np.random.default_rng(5), ROWS, 1, 8)
+    quiet, loud = (find_peak(fit_curve(s, softening(s, 80, 2.5, 60) + k * noise)) for k in (2, 8))
+    assert loud.value_error > 2 * quiet.value_error
+
+
+def test_rising_curve_has_its_peak_at_the_boundary():
+    s = displacement()
+    noise = correlated_noise(np.random.default_rng(2), ROWS, 1, 8)
+    peak = find_peak(fit_curve(s, 10 * s + noise))
+    assert peak.at_boundary
+    assert peak.position == pytest.approx(s[-1])
+
+
+def test_same_data_same_result():
+    s = displacement()
+    y = softening(s, 80, 2.5, 60) + correlated_noise(np.random.default_rng(1), ROWS, 4, 8)
+    assert find_peak(fit_curve(s, y)) == find_peak(fit_curve(s, y))
+
+
+def test_too_few_rows_are_refused():
+    with pytest.raises(ValueError, match="7 rows are too few"):
+        fit_curve(np.arange(7.0), np.arange(7.0))
+
+
+@pytest.mark.parametrize("length, tolerance", [(1, 0.2), (10, 3)])
+def test_correlation_length_of_autoregressive_noise(length, tolerance):
+    noise = correlated_noise(np.random.default_rng(3), 20000, 1, length)
+    factor = np.exp(-1 / length)
+    assert correlation_length(noise) == pytest.approx((1 + factor) / (1 - factor) / 2, abs=tolerance)
+
+
+def test_correlation_length_of_white_noise_and_of_nothing():
+    assert correlation_length(np.random.default_rng(4).normal(size=5000)) == pytest.approx(0.5, abs=0.1)
+    assert correlation_length(np.zeros(100)) == 0.5
+
+
+def test_block_averages_drop_the_rest_at_the_start():
+    assert block_averages(np.arange(7.0), 3).tolist() == [2.0, 5.0]
+
+
+def test_turning_points_are_maxima_only():
+    cubic = np.polynomial.Polynomial([0, -3, 0, 1]).convert(kind=np.polynomial.Legendre, domain=[-2, 2])
+    assert turning_points(cubic) == pytest.approx([-1])

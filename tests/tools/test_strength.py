@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Coulomb's line against closed forms and against its own coverage."""
+
+import numpy as np
+import pytest
+
+from shearbox_tools.strength import fit_line
+from shearbox_tools.student import central_probability, t_quantile
+
+SIGMA = np.array([100.0, 200, 300, 400])
+
+
+@pytest.mark.parametrize(
+    "dof, quantile", [(1, 12.706205), (2, 4.302653), (3, 3.182446), (4, 2.776445), (7, 2.364624), (30, 2.042272)]
+)
+def test_quantiles_of_student(dof, quantile):
+    assert t_quantile(0.95, dof) == pytest.approx(quantile, abs=1e-6)
+
+
+def test_probability_within_one_standard_error_of_many():
+    assert central_probability(1.0, 2000) == pytest.approx(0.682689, abs=2e-4)
+
+
+def test_exact_line():
+    line = fit_line(SIGMA, 12 + SIGMA * np.tan(np.radians(31)), np.full(4, 2.0))
+    assert line.c_kPa == pytest.approx(12)
+    assert line.phi_deg == pytest.approx(31)
+    assert line.r_squared == pytest.approx(1)
+
+
+def test_half_widths_of_equal_weights_are_the_textbook_ones():
+    tau = np.array([58.0, 104, 166, 209])
+    line = fit_line(SIGMA, tau, np.ones(4))
+    slope, intercept = np.polyfit(SIGMA, tau, 1)
+    s2 = np.sum((tau - slope * SIGMA - intercept) ** 2) / 2
+    spread = np.sum((SIGMA - 250) ** 2)
+    assert line.c_half_width_kPa == pytest.approx(4.302653 * np.sqrt(s2 * (1 / 4 + 250**2 / spread)), rel=1e-6)
+    error = 4.302653 * np.sqrt(s2 / spread) / (1 + slope**2)
+    assert line.phi_half_width_deg == pytest.approx(np.degrees(error), rel=1e-6)
+    assert line.band(np.array([0.0]))[0] == pytest.approx(line.c_half_width_kPa)
+
+
+def test_errors_of_the_peaks_are_never_shrunk():
+    line = fit_line(SIGMA, 0.5 * SIGMA, np.full(4, 3.0))
+    assert line.chi2_reduced == pytest.approx(0, abs=1e-12)
+    spread = np.sum((SIGMA - 250) ** 2)
+    expected = np.degrees(4.302653 * 3 / np.sqrt(spread) / 1.25)
+    assert line.phi_half_width_deg == pytest.approx(expected, rel=1e-6)
+
+
+def test_two_points_have_propagated_errors_only():
+    line = fit_line(SIGMA[:2], np.array([50.0, 100.0]), np.array([3.0, 4.0]))
+    assert line.chi2_reduced is None
+    expected = np.degrees(1.959964 * 5 / 100 / 1.25)
+    assert line.phi_half_width_deg == pytest.approx(expected, rel=1e-6)
+
+
+def test_interval_holds_the_truth_in_95_of_100():
+    rng = np.random.default_rng(7)
+    hits = 0
+    for _ in range(1000):
+        line = fit_line(SIGMA, 0.5 * SIGMA + rng.normal(size=4) * 8, np.full(4, 1.0))
+        hits += abs(line.c_kPa) < line.c_half_width_kPa
+    assert 930 <= hits <= 970

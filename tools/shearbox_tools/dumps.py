@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Reading single frames out of LAMMPS dumps that may be much larger than a frame."""
+
+import mmap
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from .errors import ShearboxError
+from .readers import Columns, parse_numbers, short
+
+GRAINS = ("id", "type", "x", "y", "vx", "vy", "omega", "radius", "angle", "trm")
+DISCS = ("id", "disc", "x", "y", "radius", "angle", "type")
+CONTACTS = ("id1", "id2", "disc1", "disc2", "x", "y", "fn", "ft", "fx", "fy", "nx", "ny", "overlap", "sliding")
+
+_FRAME = re.compile(rb"^ITEM: TIMESTEP\r?\n", re.MULTILINE)
+_LONGEST_HEAD = 4096  # bytes
+_ENDLESS = 1 << 62
+
+
+@dataclass(frozen=True)
+class _Head:
+    """What stands above the rows of a frame."""
+
+    step: int
+    count: int  # rows
+    names: list[str]
+    lines: int  # of the head itself
+
+
+class Dump:
+    """A dump with the given columns: by name for `dump custom`, by position for `dump local`.
+
+    After an interruption some frames are written again: the last frame of a step counts. A last frame that is not
+    whole is what an engine that was stopped leaves behind, and is left out; anywhere else it is an error.
+    """
+
+    def __init__(self, path: Path, columns: tuple[str, ...]) -> None:
+        self.path = path
+        self.columns = columns
+        self._blocks = self._read_index()
+
+    @property
+    def steps(self) -> list[int]:
+        """Steps of the whole frames, ascending."""
+        return sorted(self._blocks)
+
+    def nearest(self, step: float) -> int:
+        """The step that has a frame and is nearest to the given one."""
+        if not self._blocks:
+            raise ShearboxError(f"{self.path}: there is no whole frame in it")
+        return min(self._blocks, key=lambda s: abs(s - step))
+
+    def frame(self, step: int) -> Columns:
+        """Columns of the frame of that step, each (rows,), in the units of the dump."""
+        start, end = self._blocks[step]
+        with self.path.open("rb") as stream:
+            stream.seek(start)
+            lines = stream.read(end - start).decode(errors="replace").splitlines()
+        head = self._head(lines, start)
+        table = self._table(lines[head.lines :], head, start)
+        return {name: table[:, k] for name, k in zip(self.columns, self._order(head))}
+
+    def _read_index(self) -> dict[int, tuple[int, int]]:
+        """Bytes from and to of the last whole frame of each step."""
+        try:
+            with self.path.open("rb") as stream:
+                if not stream.seek(0, 2):
+                    raise ShearboxError(f"{self.path}: the file is empty")
+                with mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as data:
+                    return self._index(data)
+        except OSError as error:
+            raise ShearboxError(f"{self.path}: {error.strerror}") from error
+
+    def _index(self, data: mmap.mmap) -> dict[int, tuple[int, int]]:
+        starts = [match.start() for match in _FRAME.finditer(data)]
+        if not starts or starts[0] != 0:
+            first = data[: data.find(b"\n") + 1].decode(errors="replace")
+            raise ShearboxError(f"{self.path}, line 1: 'ITEM: TIMESTEP' is expected, not {short(first)}")
+        index = {}
+        for start, end in zip(starts, [*starts[1:], len(data)]):
+            text = data[start:end]
+            head = self._head(text[:_LONGEST_HEAD].decode(errors="replace").splitlines(), start)
+            rows = text.count(b"\n") - head.lines
+            if rows == head.count:
+                index[head.step] = (start, end)
+            elif rows > head.count or end < len(data):
+                line = self._line_number(start)
+                raise ShearboxError(f"{self.path}, line {line}: a frame of {rows} rows that should have {head.count}")
+        return index
+
+    def _head(self, lines: list[str], offset: int) -> _Head:
+        """Step, number of rows and names of the columns; a head that is cut off asks for more rows than there are."""
+        last = next((i for i, line in enumerate(lines) if line.startswith(("ITEM: ATOMS", "ITEM: ENTRIES"))), None)
+        if last is None:
+            return _Head(-1, _ENDLESS, [], 0)
+        return _Head(
+            self._integer(lines, 1, offset), self._integer(lines, 3, offset), lines[last].split()[2:], last + 1
+        )
+
+    def _integer(self, lines: list[str], index: int, offset: int) -> int:
+        try:
+            return int(lines[index])
+        except ValueError as error:
+            line = self._line_number(offset) + index
+            raise ShearboxError(
+                f"{self.path}, line {line}: a whole number is expected, not {short(lines[index])}"
+            ) from error
+
+    def _order(self, head: _Head) -> list[int]:
+        if all(name in head.names for name in self.columns):
+            return [head.names.index(name) for name in self.columns]
+        data = [i for i, name in enumerate(head.names) if name != "index"]
+        if len(data) == len(self.columns):
+            return data
+        raise ShearboxError(
+            f"{self.path}: the columns {' '.join(self.columns)} are expected, there are {' '.join(head.names)}"
+        )
+
+    def _table(self, body: list[str], head: _Head, offset: int) -> np.ndarray:
+        """(rows, columns) numbers; the exact line of a damage is only looked for when there is one."""
+        if not body:
+            return np.empty((0, len(head.names)))
+        try:
+            table = np.loadtxt(body, ndmin=2)
+            if table.shape[1] == len(head.names) and np.all(np.isfinite(table)):
+                return table
+        except ValueError:
+            pass
+        first = self._line_number(offset) + head.lines
+        return np.array([parse_numbers(s, len(head.names), self.path, first + i) for i, s in enumerate(body)])
+
+    def _line_number(self, offset: int) -> int:
+        """Number of the line that begins at that byte."""
+        with self.path.open("rb") as stream:
+            return stream.read(offset).count(b"\n") + 1

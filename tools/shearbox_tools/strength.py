@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Coulomb's line tau_f = c + sigma tan(phi) through the peaks (the paper's eq. 5), with its uncertainty."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .student import t_quantile
+
+COVERAGE = 0.95
+NORMAL_95 = 1.959964
+
+
+@dataclass(frozen=True)
+class Line:
+    """Cohesion (kPa) and friction angle (degrees) with the half-widths of their 95 % intervals."""
+
+    c_kPa: float
+    c_half_width_kPa: float
+    phi_deg: float
+    phi_half_width_deg: float
+    slope: float
+    covariance: np.ndarray  # (2, 2) of (c, slope), scaled as described in fit_line
+    quantile: float  # number of standard errors in a half-width
+    r_squared: float
+    chi2_reduced: float | None  # None with two points: nothing is left over to judge the scatter by
+    phi_through_origin_deg: float
+
+    def band(self, sigma: np.ndarray) -> np.ndarray:
+        """Half-width (kPa) of the 95 % band of the line at sigma (kPa)."""
+        design = np.column_stack([np.ones_like(sigma), sigma])
+        return self.quantile * np.sqrt(np.einsum("ij,jk,ik->i", design, self.covariance, design))
+
+
+def fit_line(sigma: np.ndarray, tau: np.ndarray, tau_error: np.ndarray) -> Line:
+    """Weighted least squares through n >= 2 points (sigma, tau +- tau_error), all in kPa; sigma is exact (the load is).
+
+    With A = [1, sigma] and W = diag(1 / tau_error^2): (c, slope) = (A^T W A)^-1 A^T W tau, phi = atan(slope).
+    (A^T W A)^-1 is the covariance propagated from the errors of the peaks. One specimen differs from the next by more
+    than its peak's error, and that shows as chi^2 / (n - 2) > 1: the covariance is multiplied by
+    max(1, chi^2 / (n - 2)), never shrunk (Birge ratio), and the half-widths are Student's t with n - 2 degrees of
+    freedom times the standard errors. Two points leave no degree of freedom: then the propagated errors alone, times 1.96.
+    The error of phi is that of the slope times d(atan s)/ds = 1 / (1 + s^2).
+    """
+    design = np.column_stack([np.ones_like(sigma), sigma])
+    weights = 1 / tau_error**2
+    covariance = np.linalg.inv(design.T @ (weights[:, None] * design))
+    cohesion, slope = covariance @ design.T @ (weights * tau)
+    residuals = tau - cohesion - slope * sigma
+    dof = len(sigma) - 2
+    chi2_reduced, quantile = None, NORMAL_95
+    if dof > 0:
+        chi2_reduced = float(np.sum(weights * residuals**2) / dof)
+        covariance = covariance * max(1.0, chi2_reduced)
+        quantile = t_quantile(COVERAGE, dof)
+    total = np.sum(weights * (tau - np.average(tau, weights=weights)) ** 2)
+    through_origin = np.sum(weights * sigma * tau) / np.sum(weights * sigma**2)
+    return Line(
+        c_kPa=float(cohesion),
+        c_half_width_kPa=float(quantile * np.sqrt(covariance[0, 0])),
+        phi_deg=float(np.degrees(np.arctan(slope))),
+        phi_half_width_deg=float(np.degrees(quantile * np.sqrt(covariance[1, 1]) / (1 + slope**2))),
+        slope=float(slope),
+        covariance=covariance,
+        quantile=quantile,
+        r_squared=float(1 - np.sum(weights * residuals**2) / total),
+        chi2_reduced=chi2_reduced,
+        phi_through_origin_deg=float(np.degrees(np.arctan(through_origin))),
+    )
