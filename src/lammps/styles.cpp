@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "styles.h"
 
+#include "cdem_create.h"
 #include "command.h"
 #include "compute.h"
 #include "fix.h"
 #include "fix_cdem_history.h"
 #include "fix_cdem_integrate.h"
+#include "fix_cdem_lid.h"
+#include "fix_cdem_move.h"
 #include "library.h"
 #include "lmptype.h"
 #include "pair.h"
@@ -50,8 +53,10 @@ const std::vector<Shearbox::Style> &Shearbox::styles() {
       pair<PairCDEM>("cdem"),
       fix<FixCDEMHistory>("cdem/history"),
       fix<FixCDEMIntegrate>("cdem/integrate"),
+      fix<FixCDEMLid>("cdem/lid"),
+      fix<FixCDEMMove>("cdem/move"),
       // compute<ComputeCDEMTRM>("cdem/trm"),
-      // command<CDEMCreate>("cdem/create"),
+      command<CDEMCreate>("cdem/create"),
   };
   return all;
 }

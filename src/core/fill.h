@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Diameters of N grains after a power law, and places for them without overlap. The same input gives the same bits on
+// every machine: the generator is fixed by the C++ standard, its distributions and std::shuffle are not, so not used.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace cdem {
+
+class Random {
+public:
+  explicit Random(std::uint64_t seed) : engine(seed) {}
+
+  double uniform() { return static_cast<double>(engine() >> 11) * 0x1p-53; } // in [0, 1)
+
+  template <class T> void shuffle(std::vector<T> &items) {
+    for (std::size_t n = items.size(); n > 1; --n)
+      std::swap(items[n - 1], items[engine() % n]);
+  }
+
+private:
+  std::mt19937_64 engine;
+};
+
+// The q-quantile of number density n(d) ~ d^power on [smallest, largest]: the inverse of its integral.
+inline double power_law_quantile(double q, double smallest, double largest, double power) {
+  const double p = power + 1, ratio = largest / smallest;
+  const double d = std::fabs(p) < 1e-12 ? std::pow(ratio, q) : std::pow(1 + q * (std::pow(ratio, p) - 1), 1 / p);
+  return std::clamp(smallest * d, smallest, largest);
+}
+
+// One diameter from the middle of each of n equal shares of the law: it is met for any n, and for any seed with the
+// same diameters. Only their order depends on the seed.
+inline std::vector<double> power_law_diameters(int n, double smallest, double largest, double power, Random &random) {
+  std::vector<double> diameters(n);
+  for (int i = 0; i < n; ++i)
+    diameters[i] = power_law_quantile((i + 0.5) / n, smallest, largest, power);
+  random.shuffle(diameters);
+  return diameters;
+}
+
+struct Place {
+  double x, y;
+};
+
+// Discs side by side in rows from the bottom of a width x height box upward, in the given order. A row is as high as
+// its largest disc. What is left of a row's width, and of the height, is shared out at random, so that no disc overlaps
+// another or the box. `needed` is the height that the rows take; there are no places if that is more than `height`.
+inline std::vector<Place> rows_of_discs(const std::vector<double> &diameters, double width, double height,
+                                        Random &random, double &needed) {
+  struct Row {
+    std::size_t first, end;
+    double length, height;
+  };
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < diameters.size(); ++i) {
+    if (rows.empty() || rows.back().length + diameters[i] > width)
+      rows.push_back({i, i, 0, 0});
+    Row &row = rows.back();
+    row.end = i + 1;
+    row.length += diameters[i];
+    row.height = std::max(row.height, diameters[i]);
+  }
+  needed = 0;
+  for (const Row &row : rows)
+    needed += row.height;
+
+  std::vector<Place> places;
+  if (needed > height)
+    return places;
+  double y = 0;
+  const double space = (height - needed) / static_cast<double>(rows.size()); // above each row, for the jitter in y
+  for (const Row &row : rows) {
+    std::vector<double> gaps(row.end - row.first);
+    double total = random.uniform(); // the gap after the last disc
+    for (double &gap : gaps)
+      total += gap = random.uniform();
+    double x = 0;
+    for (std::size_t i = row.first; i < row.end; ++i) {
+      const double d = diameters[i];
+      x += (width - row.length) * gaps[i - row.first] / total;
+      places.push_back({x + 0.5 * d, y + 0.5 * d + (row.height + space - d) * random.uniform()});
+      x += d;
+    }
+    y += row.height + space;
+  }
+  return places;
+}
+
+} // namespace cdem

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// cdem/create TYPE row X1 Y1 X2 Y2 N diameter D density RHO
+// cdem/create TYPE fill N region XLO XHI YLO YHI diameter DMIN DMAX power P density RHO seed S
+//
+// Makes discs of mass RHO pi D^2/4; RHO is an areal density, density x thickness (kg/m^2), lengths are in m.
+//
+//   row   N discs, their centres evenly spaced from (X1, Y1) to (X2, Y2), both included
+//   fill  N grains without overlap inside a rectangle, as a loose column for packing. Diameters follow n(d) ~ d^P from
+//         DMIN to DMAX: one from each of N equal shares of the law, in an order given by the seed S > 0. They stand in
+//         rows with random gaps, which are spread over the whole height (see core/fill.h)
+//
+// Atom ids go on from the largest one, in the order of creation. Positions and ids are the same for any number of
+// ranks.
+#pragma once
+
+#include "command.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class CDEMCreate : public Command {
+public:
+  explicit CDEMCreate(LAMMPS *);
+  void command(int, char **) override;
+
+private:
+  struct Disc {
+    double x, y, diameter;
+  };
+
+  class Arguments;
+
+  std::vector<Disc> row(Arguments &);
+  std::vector<Disc> fill(Arguments &);
+  void read_density(Arguments &);
+  void check(const Disc &) const;
+  bool is_mine(const Disc &) const;
+  void create(const std::vector<Disc> &);
+
+  int type = 0;
+  double density = 0;
+};
+
+} // namespace LAMMPS_NS

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fix_cdem_lid.h"
+
+#include "pair_cdem.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "force.h"
+#include "group.h"
+#include "input.h"
+#include "modify.h"
+#include "update.h"
+#include "utils.h"
+#include "variable.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+namespace {
+enum Output { APPLIED, FELT, HEIGHT, VELOCITY, CAPPED_STEPS, FORCE_X, NOUTPUTS };
+}
+
+FixCDEMLid::FixCDEMLid(LAMMPS *lmp, int narg, char **arg) : WallBody(lmp, narg, arg) {
+  bool has_stress = false;
+  for (int iarg = 3; iarg < narg;) {
+    const std::string keyword = arg[iarg++];
+    if (keyword == "stress") {
+      has_stress = true;
+      if (iarg < narg && utils::strmatch(arg[iarg], "^v_"))
+        stress_variable = arg[iarg++] + 2;
+      else
+        stress = number(narg, arg, iarg, "stress");
+    } else if (keyword == "width")
+      width = number(narg, arg, iarg, "width");
+    else if (keyword == "thickness")
+      thickness = number(narg, arg, iarg, "thickness");
+    else if (keyword == "vmax") {
+      if (iarg < narg && strcmp(arg[iarg], "auto") == 0) {
+        given_cap = 0;
+        iarg++;
+      } else if (!((given_cap = number(narg, arg, iarg, "vmax")) > 0))
+        error->all(FLERR, "Fix cdem/lid {}: vmax {}: must be positive (m/s), or auto", id, given_cap);
+    } else
+      error->all(FLERR, "Fix cdem/lid {}: unknown keyword {}; allowed: stress, width, thickness, vmax", id, keyword);
+  }
+  if (!has_stress)
+    error->all(FLERR, "Fix cdem/lid {}: stress (Pa) is missing", id);
+  if (!(stress >= 0))
+    error->all(FLERR, "Fix cdem/lid {}: stress {}: must be 0 or more (Pa, compression)", id, stress);
+  if (!(width > 0))
+    error->all(FLERR, "Fix cdem/lid {}: width {}: must be given and positive (m)", id, width);
+  if (!(thickness > 0))
+    error->all(FLERR, "Fix cdem/lid {}: thickness {}: must be given and positive (m)", id, thickness);
+  size_vector = NOUTPUTS;
+}
+
+void FixCDEMLid::init() {
+  WallBody::init();
+  mass = total_mass();
+  if (!(mass > 0))
+    error->all(FLERR, "Fix cdem/lid {}: the mass of group {} is {} kg", id, group->names[igroup], mass);
+  if (given_cap == 0)
+    cap_per_force = 1 / std::sqrt(static_cast<double>(group->count(igroup)) * largest_stiffness() * mass);
+  if (!stress_variable.empty()) {
+    variable_index = input->variable->find(stress_variable.c_str());
+    if (variable_index < 0)
+      error->all(FLERR, "Fix cdem/lid {}: there is no variable {}", id, stress_variable);
+    if (!input->variable->equalstyle(variable_index))
+      error->all(FLERR, "Fix cdem/lid {}: variable {} is not of style equal", id, stress_variable);
+  }
+  velocity = group_velocity();
+  set_motion({0, velocity}, {0, state.acceleration});
+}
+
+// The velocity that all discs have; if they differ (a new lid, or one set in motion by hand), that of their momentum.
+double FixCDEMLid::group_velocity() const {
+  double extremes[2] = {-INFINITY, -INFINITY}, all[2]; // largest vy and -vy
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!in_group(i))
+      continue;
+    extremes[0] = std::max(extremes[0], atom->v[i][1]);
+    extremes[1] = std::max(extremes[1], -atom->v[i][1]);
+  }
+  MPI_Allreduce(extremes, all, 2, MPI_DOUBLE, MPI_MAX, world);
+  return all[0] == -all[1] ? all[0] : momentum_y() / mass;
+}
+
+double FixCDEMLid::largest_stiffness() const {
+  const auto *pair = dynamic_cast<PairCDEM *>(force->pair);
+  if (!pair)
+    error->all(FLERR, "Fix cdem/lid {}: vmax auto needs pair_style cdem; give vmax V (m/s) without it", id);
+  double kn = 0;
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = 1; j <= atom->ntypes; j++)
+      kn = std::max(kn, pair->material(i, j).kn);
+  if (!(kn > 0))
+    error->all(FLERR, "Fix cdem/lid {}: vmax auto: no contact has a normal stiffness; give vmax V (m/s)", id);
+  return kn;
+}
+
+void FixCDEMLid::update_stress() {
+  if (stress_variable.empty())
+    return;
+  modify->clearstep_compute();
+  stress = input->variable->compute_equal(variable_index);
+  modify->addstep_compute(update->ntimestep + 1);
+  if (!(stress >= 0))
+    error->all(FLERR, "Fix cdem/lid {}: variable {} is {} at step {}: must be 0 or more (Pa, compression)", id,
+               stress_variable, stress, update->ntimestep);
+}
+
+void FixCDEMLid::take_acceleration() { state.acceleration = (felt_force - stress * width * thickness) / mass; }
+
+void FixCDEMLid::setup(int) {
+  update_stress();
+  felt_force = force_y();
+  if (state.valid_step != update->ntimestep)
+    take_acceleration();
+  state.valid_step = update->ntimestep;
+  set_motion({0, velocity}, {0, state.acceleration});
+}
+
+void FixCDEMLid::initial_integrate(int) {
+  velocity += 0.5 * update->dt * state.acceleration;
+  capped = cap();
+  shift({0, update->dt * velocity}, {0, velocity});
+}
+
+void FixCDEMLid::final_integrate() {
+  update_stress();
+  felt_force = force_y();
+  take_acceleration();
+  velocity += 0.5 * update->dt * state.acceleration;
+  if (cap()) {
+    capped = true;
+    state.acceleration = 0; // at its cap the lid moves uniformly
+  }
+  state.capped_steps += capped;
+  state.valid_step = update->ntimestep;
+  set_motion({0, velocity}, {0, state.acceleration});
+}
+
+// Holds the velocity at the cap; true if it would have been beyond.
+bool FixCDEMLid::cap() {
+  const double fastest = given_cap > 0 ? given_cap : cap_per_force * stress * width * thickness;
+  if (velocity >= -fastest)
+    return false;
+  velocity = -fastest;
+  return true;
+}
+
+double FixCDEMLid::lower_face() const {
+  double lowest = INFINITY, all;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (in_group(i))
+      lowest = std::min(lowest, atom->x[i][1] - atom->radius[i]);
+  MPI_Allreduce(&lowest, &all, 1, MPI_DOUBLE, MPI_MIN, world);
+  return all;
+}
+
+double FixCDEMLid::compute_vector(int n) {
+  switch (n) {
+  case APPLIED:
+    return stress;
+  case FELT:
+    return felt_force / (width * thickness);
+  case HEIGHT:
+    return lower_face();
+  case VELOCITY:
+    return velocity;
+  case CAPPED_STEPS:
+    return state.capped_steps;
+  default:
+    return force_x();
+  }
+}
+
+void FixCDEMLid::write_restart(FILE *fp) {
+  if (comm->me != 0)
+    return;
+  const int size = sizeof(state);
+  fwrite(&size, sizeof(size), 1, fp);
+  fwrite(&state, sizeof(state), 1, fp);
+}
+
+void FixCDEMLid::restart(char *buf) { memcpy(&state, buf, sizeof(state)); }

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// fix ID group cdem/lid stress SIGMA width W thickness T [vmax V|auto]
+//
+// A rigid, level lid under a constant normal stress. The discs of the group form one body that moves vertically only:
+// its mass M is the sum of theirs, and M dv/dt = sum of contact f_y - F, with F = SIGMA W T downward. Velocity Verlet
+// as in fix cdem/integrate, so the lid needs no servo and no gains: the applied stress is exact, and the stress it
+// feels differs from it only by the lid's own acceleration.
+//
+//   SIGMA  normal stress, >= 0 (Pa); or v_name, an equal-style variable that is evaluated every step
+//   W, T   width and thickness on which it acts (m)
+//   V      the lid never falls faster (m/s). Default auto = F/sqrt(n kn M), kn the largest normal stiffness, n the
+//          number of discs: when the lid hits a rigid bed with all discs at once, the force of the impact is
+//          v sqrt(n kn M), so it is never more than F itself. Upward, the lid is free.
+//
+// Global vector: 1 applied stress (Pa), 2 felt stress = sum of f_y/(W T) (Pa), 3 height of the lower face (m), that is
+// of the lowest point of its discs, 4 velocity (m/s), 5 steps in which the cap acted, 6 horizontal force felt (N).
+// Restarts continue to the same bits.
+#pragma once
+
+#include "wall_body.h"
+
+#include <string>
+
+namespace LAMMPS_NS {
+
+class FixCDEMLid : public WallBody {
+public:
+  FixCDEMLid(LAMMPS *, int, char **);
+
+  void init() override;
+  void setup(int) override;
+  void initial_integrate(int) override;
+  void final_integrate() override;
+  double compute_vector(int) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+
+private:
+  // What a run that goes on needs, besides the velocities of the atoms.
+  struct State {
+    double acceleration;
+    double capped_steps;
+    double valid_step; // the step at whose end the acceleration was taken; -1: never
+  };
+
+  double group_velocity() const;
+  double largest_stiffness() const;
+  double lower_face() const;
+  void update_stress();
+  void take_acceleration();
+  bool cap();
+
+  std::string stress_variable; // empty: constant
+  int variable_index = -1;
+  double stress = 0, width = 0, thickness = 0;
+  double given_cap = 0; // 0: automatic
+
+  double mass = 0;
+  double cap_per_force = 0; // automatic cap over F
+  double felt_force = 0;
+  double velocity = 0;
+  bool capped = false; // in this step
+  State state{0, 0, -1};
+};
+
+} // namespace LAMMPS_NS

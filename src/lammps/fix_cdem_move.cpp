@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fix_cdem_move.h"
+
+#include "comm.h"
+#include "error.h"
+#include "update.h"
+
+#include <cmath>
+#include <cstring>
+#include <string>
+
+using namespace LAMMPS_NS;
+
+namespace {
+enum Output { DISPLACEMENT, SPEED, FORCE_X, FORCE_Y, NOUTPUTS };
+constexpr double PI = 3.14159265358979323846;
+constexpr double RESOLUTION = 0x1p-50; // m, see the header
+} // namespace
+
+FixCDEMMove::FixCDEMMove(LAMMPS *lmp, int narg, char **arg) : WallBody(lmp, narg, arg) {
+  bool has_speed = false, has_stop = false;
+  for (int iarg = 3; iarg < narg;) {
+    const std::string keyword = arg[iarg++];
+    if (keyword == "speed") {
+      has_speed = true;
+      speed = number(narg, arg, iarg, "speed");
+    } else if (keyword == "dir") {
+      const std::string dir = iarg < narg ? arg[iarg++] : "nothing";
+      if (dir != "x" && dir != "y")
+        error->all(FLERR, "Fix cdem/move {}: dir {}: must be x or y", id, dir);
+      vertical = dir == "y";
+    } else if (keyword == "ramp")
+      ramp = number(narg, arg, iarg, "ramp");
+    else if (keyword == "stop") {
+      has_stop = true;
+      stop = number(narg, arg, iarg, "stop");
+    } else
+      error->all(FLERR, "Fix cdem/move {}: unknown keyword {}; allowed: speed, dir, ramp, stop", id, keyword);
+  }
+  if (!has_speed)
+    error->all(FLERR, "Fix cdem/move {}: speed (m/s) is missing", id);
+  if (!std::isfinite(speed))
+    error->all(FLERR, "Fix cdem/move {}: speed {}: must be a number (m/s)", id, speed);
+  if (!(ramp >= 0))
+    error->all(FLERR, "Fix cdem/move {}: ramp {}: must be 0 or more (s)", id, ramp);
+  if (has_stop && !(stop > 0))
+    error->all(FLERR, "Fix cdem/move {}: stop {}: must be positive (m)", id, stop);
+  size_vector = NOUTPUTS;
+}
+
+void FixCDEMMove::init() {
+  WallBody::init();
+  reset_dt();
+  now = motion();
+  apply();
+}
+
+void FixCDEMMove::reset_dt() {
+  if (clock.dt == update->dt)
+    return;
+  clock = {clock.start + clock.steps * clock.dt, 0, update->dt};
+}
+
+FixCDEMMove::Motion FixCDEMMove::motion() const {
+  const double t = clock.start + clock.steps * clock.dt;
+  Motion m;
+  if (t < ramp) {
+    const double phase = PI * t / ramp;
+    m = {0.5 * speed * (t - ramp / PI * std::sin(phase)), 0.5 * speed * (1 - std::cos(phase)),
+         0.5 * speed * PI / ramp * std::sin(phase)};
+  } else
+    m = {speed * (t - 0.5 * ramp), speed, 0};
+  if (stop > 0 && std::fabs(m.s) >= stop)
+    m = {std::copysign(stop, speed), 0, 0};
+  m.s = std::nearbyint(m.s / RESOLUTION) * RESOLUTION;
+  return m;
+}
+
+WallBody::Vector FixCDEMMove::along(double amount) const { return vertical ? Vector{0, amount} : Vector{amount, 0}; }
+
+void FixCDEMMove::apply() { set_motion(along(now.speed), along(now.acceleration)); }
+
+void FixCDEMMove::initial_integrate(int) {
+  if (speed == 0)
+    return;
+  clock.steps++;
+  const double before = now.s;
+  now = motion();
+  shift(along(now.s - before), along((now.s - before) / update->dt));
+}
+
+void FixCDEMMove::final_integrate() {
+  if (speed != 0)
+    apply();
+}
+
+double FixCDEMMove::compute_vector(int n) {
+  switch (n) {
+  case DISPLACEMENT:
+    return now.s;
+  case SPEED:
+    return now.speed;
+  case FORCE_X:
+    return force_x();
+  default:
+    return force_y();
+  }
+}
+
+void FixCDEMMove::write_restart(FILE *fp) {
+  if (comm->me != 0)
+    return;
+  const int size = sizeof(clock);
+  fwrite(&size, sizeof(size), 1, fp);
+  fwrite(&clock, sizeof(clock), 1, fp);
+}
+
+void FixCDEMMove::restart(char *buf) { memcpy(&clock, buf, sizeof(clock)); }

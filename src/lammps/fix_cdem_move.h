@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// fix ID group cdem/move speed V [dir x|y] [ramp T] [stop S]
+//
+// Moves the discs of the group as one rigid wall by a prescribed displacement s along x (default) or y; with V = 0 the
+// wall is at rest and only its force is wanted. In the time t since the fix first ran:
+//
+//   t < T:   ds/dt = V/2 (1 - cos(pi t/T)),   s = V/2 (t - T/pi sin(pi t/T))
+//   t >= T:  ds/dt = V,                       s = V (t - T/2)
+//   |s| reaches S: the wall stops at once, at s = S (or -S if V < 0)
+//
+//   V  speed, may be negative (m/s)      T  ramp, >= 0 (s, default 0: full speed at once)
+//   S  distance to stop at, > 0 (m, default: none)
+//
+// Global vector: 1 displacement s (m), 2 speed (m/s), 3 and 4 force f_x and f_y that the grains exert on the wall (N).
+// s follows the closed form, not a sum of steps, rounded to a multiple of 2^-50 m: increments that are coarser than the
+// last bit of a coordinate add up without rounding errors, so the discs keep their distances. Restarts continue to the
+// same bits.
+#pragma once
+
+#include "wall_body.h"
+
+namespace LAMMPS_NS {
+
+class FixCDEMMove : public WallBody {
+public:
+  FixCDEMMove(LAMMPS *, int, char **);
+
+  void init() override;
+  void initial_integrate(int) override;
+  void final_integrate() override;
+  void reset_dt() override;
+  double compute_vector(int) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+
+private:
+  struct Motion {
+    double s, speed, acceleration;
+  };
+  // The time is start + steps dt: no sum of small numbers, and free to go on with another dt.
+  struct Clock {
+    double start, steps, dt;
+  };
+
+  Motion motion() const;
+  void apply();
+  Vector along(double amount) const;
+
+  double speed = 0, ramp = 0, stop = 0; // stop 0: none
+  bool vertical = false;
+  Clock clock{0, 0, 0};
+  Motion now{0, 0, 0};
+};
+
+} // namespace LAMMPS_NS

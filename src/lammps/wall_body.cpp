@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "wall_body.h"
+
+#include "core/exact_sum.h"
+#include "fix_cdem_integrate.h"
+
+#include "atom.h"
+#include "domain.h"
+#include "error.h"
+#include "group.h"
+#include "modify.h"
+#include "utils.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+
+WallBody::WallBody(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) {
+  if (domain->dimension != 2)
+    error->all(FLERR, "Fix {} {}: dimension is {}, must be 2", style, id, domain->dimension);
+  if (!atom->sphere_flag)
+    error->all(FLERR, "Fix {} {} needs atom_style sphere", style, id);
+  time_integrate = 1;
+  vector_flag = 1;
+  global_freq = 1;
+  extvector = 0;
+  restart_global = 1;
+}
+
+int WallBody::setmask() { return FixConst::INITIAL_INTEGRATE | FixConst::PRE_NEIGHBOR | FixConst::FINAL_INTEGRATE; }
+
+double WallBody::number(int narg, char **arg, int &iarg, const char *keyword) const {
+  if (iarg >= narg)
+    error->all(FLERR, "Fix {} {}: {} has no value", style, id, keyword);
+  return utils::numeric(FLERR, arg[iarg++], false, lmp);
+}
+
+void WallBody::init() {
+  const char *const name = group->names[igroup];
+  if (group->count(igroup) == 0)
+    error->all(FLERR, "Fix {} {}: group {} has no atoms", style, id, name);
+
+  integrate = FixCDEMIntegrate::find(lmp);
+  if (integrate)
+    if (const bigint n = count_also_in(integrate->groupbit))
+      error->all(FLERR, "Fix {} {}: {} atoms of group {} are also in group {}, which fix cdem/integrate moves", style,
+                 id, n, name, group->names[integrate->igroup]);
+  for (int i = 0; i < modify->nfix; i++) {
+    const auto *other = dynamic_cast<WallBody *>(modify->fix[i]);
+    if (!other || other == this)
+      continue;
+    if (const bigint n = count_also_in(other->groupbit))
+      error->all(FLERR, "Fix {} {}: {} atoms of group {} are also moved by fix {} {}", style, id, n, name, other->style,
+                 other->id);
+  }
+
+  pre_neighbor();
+  for (int i : discs)
+    std::fill_n(atom->omega[i], 3, 0.0);
+}
+
+bigint WallBody::count_also_in(int other_groupbit) const {
+  bigint mine = 0, all;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (in_group(i) && (atom->mask[i] & other_groupbit))
+      mine++;
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  return all;
+}
+
+bool WallBody::in_group(int i) const { return atom->mask[i] & groupbit; }
+
+void WallBody::setup_pre_neighbor() { pre_neighbor(); }
+
+void WallBody::pre_neighbor() {
+  discs.clear();
+  for (int i = 0; i < atom->nlocal; i++)
+    if (in_group(i))
+      discs.push_back(i);
+}
+
+template <class Term> double WallBody::sum(Term term) const {
+  cdem::ExactSum mine;
+  for (int i : discs)
+    mine.add(term(i));
+  const auto words = mine.words();
+  cdem::ExactSum::Words all;
+  MPI_Allreduce(words.data(), all.data(), static_cast<int>(words.size()), MPI_INT64_T, MPI_SUM, world);
+  return cdem::ExactSum(all).value();
+}
+
+double WallBody::force_x() const {
+  return sum([this](int i) { return atom->f[i][0]; });
+}
+
+double WallBody::force_y() const {
+  return sum([this](int i) { return atom->f[i][1]; });
+}
+
+double WallBody::momentum_y() const {
+  return sum([this](int i) { return atom->rmass[i] * atom->v[i][1]; });
+}
+
+double WallBody::total_mass() const {
+  return sum([this](int i) { return atom->rmass[i]; });
+}
+
+void WallBody::set_motion(Vector velocity, Vector acceleration) {
+  for (int i : discs) {
+    atom->v[i][0] = velocity.x;
+    atom->v[i][1] = velocity.y;
+    if (!integrate)
+      continue;
+    integrate->state[i][FixCDEMIntegrate::AX] = acceleration.x;
+    integrate->state[i][FixCDEMIntegrate::AY] = acceleration.y;
+  }
+}
+
+void WallBody::shift(Vector displacement, Vector velocity) {
+  for (int i : discs) {
+    atom->x[i][0] += displacement.x;
+    atom->x[i][1] += displacement.y;
+    atom->v[i][0] = velocity.x;
+    atom->v[i][1] = velocity.y;
+  }
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What fixes cdem/lid and cdem/move share: a rigid set of wall discs that moves in translation, without rotation.
+//
+// The discs of the group follow the motion that the fix prescribes or computes; contact forces act on the body as a
+// whole. A disc belongs to one such body at most, and never to the grains that fix cdem/integrate moves.
+#pragma once
+
+#include "fix.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class FixCDEMIntegrate;
+
+class WallBody : public Fix {
+public:
+  WallBody(LAMMPS *, int, char **);
+
+  int setmask() override;
+  void init() override;
+  void setup_pre_neighbor() override;
+  void pre_neighbor() override;
+
+protected:
+  struct Vector {
+    double x, y;
+  };
+
+  // Next argument as a number; error if there is none or it is not one.
+  double number(int narg, char **arg, int &iarg, const char *keyword) const;
+
+  // Sums over the discs, with the same bits for any number of ranks. The force is that of the contacts and of whatever
+  // else writes f.
+  double force_x() const;
+  double force_y() const;
+  double momentum_y() const;
+  double total_mass() const;
+
+  // Velocity of all discs, acceleration for the contacts' dashpots (see fix_cdem_integrate.h).
+  void set_motion(Vector velocity, Vector acceleration);
+  // One step's displacement, made at the given mean velocity.
+  void shift(Vector displacement, Vector velocity);
+
+  bool in_group(int i) const;
+
+private:
+  template <class Term> double sum(Term term) const;
+  bigint count_also_in(int other_groupbit) const;
+
+  FixCDEMIntegrate *integrate = nullptr;
+  std::vector<int> discs; // own atoms of the group, valid between rebuilds of the neighbour list
+};
+
+} // namespace LAMMPS_NS
