@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A sum that does not depend on the order of its terms, so a force on a wall has the same bits for any number of ranks.
 //
-// A term is rounded to a multiple of 2^-60 and kept in two integers, x = high 2^-10 + low 2^-60. Integers add exactly in
-// any order. In newtons the resolution is 1e-18 N, and terms may be up to 2^50 = 1e15 N, far beyond any force here.
+// A term is rounded to a multiple of 2^-60 and kept in two integers, x = high 2^-10 + low 2^-60. Integers add exactly
+// in any order. In newtons the resolution is 1e-18 N, and terms may be up to 2^50 = 1e15 N, far beyond any force here.
 #pragma once
 
 #include <array>
@@ -35,7 +35,8 @@ public:
 
   // Not a number if a term was none, or too large: a broken force must not look like a sound one.
   double value() const {
-    if (bad) return std::numeric_limits<double>::quiet_NaN();
+    if (bad)
+      return std::numeric_limits<double>::quiet_NaN();
     ExactSum s = *this;
     s.carry();
     return static_cast<double>(s.high) / coarse_scale + static_cast<double>(s.low) / fine_scale;

@@ -15,7 +15,8 @@ namespace {
 
 double sum(const std::vector<double> &terms) {
   ExactSum s;
-  for (double x : terms) s.add(x);
+  for (double x : terms)
+    s.add(x);
   return s.value();
 }
 
@@ -30,7 +31,8 @@ std::vector<double> forces(int n) {
 TEST(ExactSum, EmptyIsZero) { EXPECT_EQ(ExactSum().value(), 0.0); }
 
 TEST(ExactSum, OneTermComesBack) {
-  for (double x : {0.0, 1.0, -1.0, 0.1, -1234.56789, 0x1p49, -0x1p-60, 3e-7}) EXPECT_NEAR(sum({x}), x, 0x1p-61);
+  for (double x : {0.0, 1.0, -1.0, 0.1, -1234.56789, 0x1p49, -0x1p-60, 3e-7})
+    EXPECT_NEAR(sum({x}), x, 0x1p-61);
   EXPECT_EQ(sum({0x1p-60}), 0x1p-60);
   EXPECT_EQ(sum({-123.25}), -123.25);
 }
@@ -49,10 +51,12 @@ TEST(ExactSum, SplitOverRanksDoesNotMatter) {
   const auto terms = forces(1000);
   for (int ranks : {1, 2, 3, 4, 64, 1000}) {
     std::vector<ExactSum> parts(ranks);
-    for (size_t i = 0; i < terms.size(); ++i) parts[i * 7919 % ranks].add(terms[i]);
+    for (size_t i = 0; i < terms.size(); ++i)
+      parts[i * 7919 % ranks].add(terms[i]);
     ExactSum::Words all{};
     for (const auto &part : parts)
-      for (size_t w = 0; w < all.size(); ++w) all[w] += part.words()[w];
+      for (size_t w = 0; w < all.size(); ++w)
+        all[w] += part.words()[w];
     EXPECT_EQ(ExactSum(all).value(), sum(terms)) << ranks << " ranks";
   }
 }
@@ -63,7 +67,8 @@ TEST(ExactSum, LowWordNeverRunsOver) {
   ExactSum s;
   const double x = 0x1p-11 - 0x1p-60; // the largest that goes to the low word
   const int n = 1 << 20;
-  for (int i = 0; i < n; ++i) s.add(x);
+  for (int i = 0; i < n; ++i)
+    s.add(x);
   EXPECT_EQ(s.value(), n * x);
 }
 
