@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The program lmp_cdem: LAMMPS with its own command line, and the styles of Shearbox there from the start.
+#include "engine.h"
 #include "styles.h"
 
 #include "comm.h"
@@ -22,7 +23,7 @@ using namespace LAMMPS_NS;
 // LAMMPS calls this after it has made its tables of styles: at the start, and again at every `clear`. The program's
 // definition comes before the library's, so we are called, add our styles, and hand on to the library's.
 void LAMMPS::post_create() {
-  if (const char *problem = Shearbox::mismatch(this)) throw std::runtime_error(problem);
+  if (const std::string problem = Shearbox::mismatch(this); !problem.empty()) throw std::runtime_error(problem);
   for (const Shearbox::Style &s : Shearbox::styles()) {
     if (s.pair) (*force->pair_map)[s.name] = s.pair;
     if (s.fix) (*modify->fix_map)[s.name] = s.fix;
@@ -41,7 +42,7 @@ int main(int argc, char **argv) {
   MPI_Init(&argc, &argv);
   try {
     auto *lmp = new LAMMPS(argc, argv, MPI_COMM_WORLD);
-    if (lmp->comm->me == 0) utils::logmesg(lmp, std::string("Shearbox ") + Shearbox::version() + "\n");
+    if (lmp->comm->me == 0) utils::logmesg(lmp, "Shearbox " + Shearbox::version() + "\n");
     lmp->input->file();
     delete lmp;
   } catch (const LAMMPSAbortException &e) { // one rank failed, the others may wait for it

@@ -1,20 +1,43 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// cdemplugin.so: checks the LAMMPS that loads it, then takes the styles from cdemstyles.so beside it.
+#include "engine.h"
 #include "styles.h"
 
 #include "lammpsplugin.h"
+#include "library.h"
 #include "version.h"
 
 #include <cstdio>
+#include <dlfcn.h>
 #include <string>
+
+namespace {
+
+// Reports are for one rank only; the error itself follows when the input file asks for a style that isn't there.
+void refuse(void *lmp, const std::string &why) {
+  if (lammps_extract_setting(lmp, "world_rank") == 0) std::fprintf(stderr, "ERROR: plugin refused: %s\n", why.c_str());
+}
+
+std::string file_beside_this(const char *name) {
+  Dl_info info{};
+  dladdr(reinterpret_cast<void *>(&file_beside_this), &info);
+  const std::string path = info.dli_fname;
+  return path.substr(0, path.rfind('/') + 1) + name;
+}
+
+} // namespace
 
 // Called by `plugin load cdemplugin.so`.
 extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc) {
-  if (const char *problem = Shearbox::mismatch(static_cast<LAMMPS_NS::LAMMPS *>(lmp))) {
-    std::fprintf(stderr, "ERROR: plugin refused: %s\n", problem);
-    return;
-  }
-  static const std::string info = std::string("Shearbox ") + Shearbox::version();
-  for (const Shearbox::Style &s : Shearbox::styles()) {
+  if (const std::string problem = Shearbox::mismatch(lmp); !problem.empty()) return refuse(lmp, problem);
+
+  void *file = dlopen(file_beside_this("cdemstyles.so").c_str(), RTLD_NOW);
+  if (!file) return refuse(lmp, dlerror());
+  const auto styles = reinterpret_cast<decltype(&shearbox_styles)>(dlsym(file, "shearbox_styles"));
+  if (!styles) return refuse(lmp, dlerror());
+
+  static const std::string info = "Shearbox " + Shearbox::version();
+  for (const Shearbox::Style &s : *styles()) {
     lammpsplugin_t plugin{};
     plugin.version = LAMMPS_VERSION;
     plugin.style = s.kind;

@@ -23,13 +23,9 @@ struct Style {
   LAMMPS_NS::Command *(*command)(LAMMPS_NS::LAMMPS *) = nullptr;
 };
 
-// All styles, for the program and for the plugin.
 const std::vector<Style> &styles();
 
-// Project version and git commit.
-const char *version();
-
-// Null if the running LAMMPS is the one compiled against, else what is wrong with it.
-const char *mismatch(LAMMPS_NS::LAMMPS *);
-
 } // namespace Shearbox
+
+// The same under a name that the plugin can look up in cdemstyles.so.
+extern "C" const std::vector<Shearbox::Style> *shearbox_styles();
