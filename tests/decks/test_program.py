@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The program lmp_cdem and the plugin themselves: what they register, and how they end when something is wrong."""
+
+import ctypes
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+BUILD = Path(__file__).resolve().parents[2] / "build"
+PROGRAM = BUILD / "lmp_cdem"
+STYLES = {
+    "pair": {"cdem"},
+    "fix": {"cdem/history", "cdem/integrate", "cdem/lid", "cdem/move", "cdem/trm"},
+    "compute": {"cdem/contacts", "cdem/discs", "cdem/energy", "cdem/trm"},
+    "command": {"cdem/create"},
+}
+SCENE = """
+units si
+dimension 2
+newton off
+atom_style sphere
+comm_modify vel yes
+region box block 0 1 0 1 -0.5 0.5
+create_box 1 box
+pair_style cdem law direct
+pair_coeff * * 1e6 1e6 0.1 0.1 30
+"""
+
+
+def run(cwd: Path, deck: str | None, ranks: int = 1, *options: str) -> subprocess.CompletedProcess[str]:
+    """Run a deck (None: an input file that is not there); a deadlock shows as a time-out."""
+    if deck is not None:
+        (cwd / "in.test").write_text(deck)
+    environment = os.environ | {"OMPI_MCA_rmaps_base_oversubscribe": "1"}
+    if os.geteuid() == 0:
+        environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+    command = [str(PROGRAM), "-in", "in.test", "-log", "none", *options]
+    if ranks > 1:
+        command = ["mpirun", "-np", str(ranks), *command]
+    return subprocess.run(
+        command, cwd=cwd, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60
+    )
+
+
+@pytest.mark.parametrize("ranks", [1, 4])
+def test_styles_survive_clear(tmp_path: Path, ranks: int) -> None:
+    done = run(tmp_path, SCENE + "clear" + SCENE, ranks)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_every_style_is_registered(tmp_path: Path) -> None:
+    done = run(tmp_path, "info styles pair styles fix styles compute styles command")
+    words = set(done.stdout.split())
+    assert set.union(*STYLES.values()) - {"cdem"} <= words
+    assert "cdem" in words
+
+
+def test_banner_names_version_once(tmp_path: Path) -> None:
+    done = run(tmp_path, 'print "hello"', ranks=4)
+    assert done.stdout.count("Shearbox ") == 1
+
+
+@pytest.mark.parametrize("ranks", [1, 4])
+def test_missing_input_file_fails(tmp_path: Path, ranks: int) -> None:
+    done = run(tmp_path, None, ranks)
+    assert done.returncode != 0
+    assert "Cannot open input script in.test" in done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("ranks", [1, 4])
+def test_error_in_deck_fails(tmp_path: Path, ranks: int) -> None:
+    done = run(tmp_path, "pair_style nonsense", ranks)
+    assert done.returncode != 0
+    assert "nonsense" in done.stdout + done.stderr
+
+
+def test_error_in_one_partition_ends_the_others(tmp_path: Path) -> None:
+    (tmp_path / "in.0").write_text("pair_style nonsense")
+    (tmp_path / "in.1").write_text("shell sleep 100")
+    done = run(tmp_path, "variable part world 0 1\ninclude in.${part}", 4, "-partition", "1", "3")
+    assert done.returncode != 0
+
+
+def plugin_styles() -> None:
+    """Load the plugin as `plugin load` does, into a LAMMPS that has no such command; print what it registers."""
+
+    class Plugin(ctypes.Structure):
+        _fields_ = [(name, ctypes.c_char_p) for name in ("version", "style", "name", "info", "author")] + [
+            ("creator", ctypes.c_void_p),
+            ("handle", ctypes.c_void_p),
+        ]
+
+    @ctypes.CFUNCTYPE(None, ctypes.POINTER(Plugin), ctypes.c_void_p)
+    def register(plugin: "ctypes._Pointer[Plugin]", _lmp: int) -> None:
+        style = plugin.contents
+        assert style.creator and style.version == b"29 Sep 2021"
+        print(style.style.decode(), style.name.decode())
+
+    ctypes.CDLL("libmpi.so.40", mode=ctypes.RTLD_GLOBAL)
+    lammps = ctypes.CDLL("liblammps.so.0", mode=ctypes.RTLD_GLOBAL)
+    lammps.lammps_open_no_mpi.restype = ctypes.c_void_p
+    arguments = [b"lmp", b"-log", b"none", b"-screen", b"none"]
+    argv = (ctypes.c_char_p * len(arguments))(*arguments)
+    lmp = ctypes.c_void_p(lammps.lammps_open_no_mpi(len(arguments), argv, None))
+    plugin = ctypes.CDLL(str(BUILD / "cdemplugin.so"))
+    plugin.lammpsplugin_init(lmp, None, register)
+
+
+def load_plugin(**environment: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, __file__], env=os.environ | environment, capture_output=True, text=True, timeout=60
+    )
+
+
+def test_plugin_registers_every_style() -> None:
+    done = load_plugin()
+    assert done.returncode == 0, done.stderr
+    assert {tuple(line.split()) for line in done.stdout.splitlines()} == {
+        (kind, name) for kind, names in STYLES.items() for name in names
+    }
+
+
+def test_plugin_refuses_another_lammps(tmp_path: Path) -> None:
+    source = tmp_path / "other.c"
+    source.write_text("int lammps_version(void *lmp) { return 20250204; }\n")
+    other = tmp_path / "other.so"
+    subprocess.run(["gcc", "-shared", "-fPIC", "-w", str(source), "-o", str(other)], check=True)
+    done = load_plugin(LD_PRELOAD=str(other))
+    assert done.stdout == ""
+    assert "compiled for LAMMPS 20210929, but this is LAMMPS 20250204" in done.stderr
+
+
+if __name__ == "__main__":
+    plugin_styles()
