@@ -11,9 +11,9 @@
 #include "fix.h"
 #include "fix_cdem_history.h"
 #include "fix_cdem_integrate.h"
-#include "fix_cdem_trm.h"
 #include "fix_cdem_lid.h"
 #include "fix_cdem_move.h"
+#include "fix_cdem_trm.h"
 #include "pair.h"
 #include "pair_cdem.h"
 

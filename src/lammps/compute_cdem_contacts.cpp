@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "compute_cdem_contacts.h"
+
+#include "atom.h"
+#include "error.h"
+#include "force.h"
+#include "update.h"
+
+#include <algorithm>
+#include <string>
+
+using namespace LAMMPS_NS;
+
+const std::vector<ComputeCDEMContacts::Field> ComputeCDEMContacts::all_fields = {
+    {"id1", [](const Contact &c) { return static_cast<double>(c.tag_a); }},
+    {"id2", [](const Contact &c) { return static_cast<double>(c.tag_b); }},
+    {"disc1", [](const Contact &c) { return static_cast<double>(c.disc_a); }},
+    {"disc2", [](const Contact &c) { return static_cast<double>(c.disc_b); }},
+    {"x", [](const Contact &c) { return c.x; }},
+    {"y", [](const Contact &c) { return c.y; }},
+    {"fn", [](const Contact &c) { return c.fn; }},
+    {"ft", [](const Contact &c) { return c.ft; }},
+    {"fx", [](const Contact &c) { return c.fn * c.nx - c.ft * c.ny; }},
+    {"fy", [](const Contact &c) { return c.fn * c.ny + c.ft * c.nx; }},
+    {"nx", [](const Contact &c) { return c.nx; }},
+    {"ny", [](const Contact &c) { return c.ny; }},
+    {"overlap", [](const Contact &c) { return c.overlap; }},
+    {"sliding", [](const Contact &c) { return c.sliding ? 1.0 : 0.0; }},
+};
+
+ComputeCDEMContacts::ComputeCDEMContacts(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg) {
+  for (int k = 3; k < narg; k++)
+    fields.push_back(field(arg[k]));
+  if (fields.empty())
+    fields = all_fields;
+  local_flag = 1;
+  size_local_cols = static_cast<int>(fields.size());
+  size_local_rows = 0;
+}
+
+const ComputeCDEMContacts::Field &ComputeCDEMContacts::field(const char *name) const {
+  std::string allowed;
+  for (const Field &f : all_fields) {
+    if (f.name == std::string(name))
+      return f;
+    allowed += std::string(" ") + f.name;
+  }
+  error->all(FLERR, "Compute cdem/contacts {}: unknown field {}; allowed:{}", id, name, allowed);
+  return all_fields.front(); // not reached
+}
+
+void ComputeCDEMContacts::init() {
+  pair = dynamic_cast<PairCDEM *>(force->pair);
+  if (!pair)
+    error->all(FLERR, "Compute cdem/contacts {} needs pair_style cdem", id);
+}
+
+// Ids of the group's atoms that this rank knows, ghosts included, in ascending order.
+std::vector<tagint> ComputeCDEMContacts::members() const {
+  std::vector<tagint> ids;
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++)
+    if (atom->mask[i] & groupbit)
+      ids.push_back(atom->tag[i]);
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+void ComputeCDEMContacts::compute_local() {
+  invoked_local = update->ntimestep;
+  const std::vector<tagint> group = members();
+  const auto in_group = [&](tagint id) { return std::binary_search(group.begin(), group.end(), id); };
+  contacts.clear();
+  for (const Contact &c : pair->contacts()) {
+    if (!c.mine || !in_group(c.tag_a) || !in_group(c.tag_b))
+      continue;
+    for (const Field &f : fields)
+      contacts.add(f.value(c));
+  }
+  array_local = contacts.rows(size_local_cols);
+  size_local_rows = contacts.size();
+}
+
+double ComputeCDEMContacts::memory_usage() { return contacts.memory_usage(); }

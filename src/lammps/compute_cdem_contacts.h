@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// compute ID group cdem/contacts [field ...]
+//
+// The contacts of pair style cdem as they are at the end of the step, each once for any number of ranks; between two
+// grains (or a grain and a wall disc) of which both are in the group.
+//
+// Local array: one row per contact, one column per field, in the order given; all of them if none is given:
+//
+//   id1 id2      ids of the two grains, id1 < id2
+//   disc1 disc2  number of the disc within its grain, from 0
+//   x y          contact point, in the middle of the overlap (m)
+//   fn ft        normal and tangential force with their dashpots (N); fn > 0 repels
+//   fx fy        force on grain 1 (N): fn n + ft t, with t = (-ny, nx). Grain 2 gets the opposite
+//   nx ny        unit normal, from disc 2 to disc 1
+//   overlap      (m)
+//   sliding      1 if the tangential spring is at the Coulomb limit fn_spring tan(phi), else 0
+//
+// For example:  compute c all cdem/contacts x y fn sliding
+//               dump d all local 1000 contacts.dump c_c[1] c_c[2] c_c[3] c_c[4]
+//               dump_modify d format float %.9g     # ids beyond 999999 want more than the default %g
+#pragma once
+
+#include "local_array.h"
+#include "pair_cdem.h"
+
+#include "compute.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class ComputeCDEMContacts : public Compute {
+public:
+  ComputeCDEMContacts(LAMMPS *, int, char **);
+
+  void init() override;
+  void compute_local() override;
+  double memory_usage() override;
+
+private:
+  using Contact = PairCDEM::Contact;
+  struct Field {
+    const char *name;
+    double (*value)(const Contact &);
+  };
+  static const std::vector<Field> all_fields;
+
+  const Field &field(const char *name) const;
+  std::vector<tagint> members() const;
+
+  std::vector<Field> fields;
+  const PairCDEM *pair = nullptr;
+  Shearbox::LocalArray contacts;
+};
+
+} // namespace LAMMPS_NS

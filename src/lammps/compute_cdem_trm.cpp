@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "compute_cdem_trm.h"
+
+#include "compat.h"
+#include "core/exact_sum.h"
+#include "fix_cdem_trm.h"
+
+#include "atom.h"
+#include "error.h"
+#include "group.h"
+#include "modify.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+
+ComputeCDEMTRM::ComputeCDEMTRM(LAMMPS *lmp, int narg, char **arg)
+    : Compute(lmp, narg, arg), fix_id(std::string("CDEM_TRM_") + arg[0]) {
+  if (narg != 3)
+    error->all(FLERR, "Compute cdem/trm {}: unknown argument {}; it takes none", id, arg[3]);
+  if (!atom->sphere_flag)
+    error->all(FLERR, "Compute cdem/trm {} needs atom_style sphere", id);
+  scalar_flag = 1;
+  peratom_flag = 1;
+  size_peratom_cols = 0;
+  modify->add_fix(fix_id + " " + group->names[igroup] + " cdem/trm");
+}
+
+ComputeCDEMTRM::~ComputeCDEMTRM() {
+  if (Shearbox::fix_by_id(lmp, fix_id))
+    modify->delete_fix(fix_id); // at the end LAMMPS deletes fixes before computes
+}
+
+void ComputeCDEMTRM::init() {
+  sums = dynamic_cast<FixCDEMTRM *>(Shearbox::fix_by_id(lmp, fix_id));
+  if (!sums)
+    error->all(FLERR, "Compute cdem/trm {}: its fix {} is gone; make the compute again", id, fix_id);
+}
+
+// Zero for a grain that has not moved, or is not in the group.
+double ComputeCDEMTRM::ratio(int i) const {
+  const auto [rolled, path] = (*sums)[i];
+  return path > 0 ? rolled / path : 0;
+}
+
+void ComputeCDEMTRM::compute_peratom() {
+  invoked_peratom = update->ntimestep;
+  ratios.resize(atom->nmax);
+  for (int i = 0; i < atom->nlocal; i++)
+    ratios[i] = ratio(i);
+  vector_atom = ratios.data();
+}
+
+double ComputeCDEMTRM::compute_scalar() {
+  invoked_scalar = update->ntimestep;
+  cdem::ExactSum sum;
+  bigint moved = 0, all_moved;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!((*sums)[i].path > 0))
+      continue;
+    sum.add(ratio(i));
+    moved++;
+  }
+  const cdem::ExactSum::Words mine = sum.words();
+  cdem::ExactSum::Words all;
+  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_INT64_T, MPI_SUM, world);
+  MPI_Allreduce(&moved, &all_moved, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  scalar = all_moved > 0 ? cdem::ExactSum(all).value() / static_cast<double>(all_moved) : 0;
+  return scalar;
+}
+
+double ComputeCDEMTRM::memory_usage() { return static_cast<double>(ratios.capacity() * sizeof(double)); }

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// compute ID group cdem/trm
+//
+// Rotation rate of motion of each grain, over all steps since the compute was made (Matsunae, Seguro, Yoshida 2012,
+// eq. 6):
+//
+//   TRM = sum r |d theta| / sum sqrt(dx^2 + dy^2)
+//
+// r is the radius of the grain. A grain that rolls has 1; above 1 it spins, below 1 it slides. d theta, dx, dy are the
+// exact increments of each step, so the result does not depend on when it is asked for.
+//
+// Per-atom vector: TRM of the grain (no unit); 0 outside the group, and for a grain that never moved.
+// Scalar: its mean over the grains of the group that have moved, with the same bits for any number of ranks.
+// The sums are in restart files: after read_restart, make the compute with the same ID before the first run, and it
+// goes on. To start afresh, uncompute it and make it again.
+#pragma once
+
+#include "compute.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class FixCDEMTRM;
+
+class ComputeCDEMTRM : public Compute {
+public:
+  ComputeCDEMTRM(LAMMPS *, int, char **);
+  ~ComputeCDEMTRM() override;
+
+  void init() override;
+  double compute_scalar() override;
+  void compute_peratom() override;
+  double memory_usage() override;
+
+private:
+  double ratio(int i) const;
+
+  const std::string fix_id;
+  FixCDEMTRM *sums = nullptr;
+  std::vector<double> ratios; // per atom
+};
+
+} // namespace LAMMPS_NS
