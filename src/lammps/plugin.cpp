@@ -15,7 +15,8 @@ namespace {
 
 // Reports are for one rank only; the error itself follows when the input file asks for a style that isn't there.
 void refuse(void *lmp, const std::string &why) {
-  if (lammps_extract_setting(lmp, "world_rank") == 0) std::fprintf(stderr, "ERROR: plugin refused: %s\n", why.c_str());
+  if (lammps_extract_setting(lmp, "world_rank") == 0)
+    std::fprintf(stderr, "ERROR: plugin refused: %s\n", why.c_str());
 }
 
 std::string file_beside_this(const char *name) {
@@ -29,12 +30,15 @@ std::string file_beside_this(const char *name) {
 
 // Called by `plugin load cdemplugin.so`.
 extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc) {
-  if (const std::string problem = Shearbox::mismatch(lmp); !problem.empty()) return refuse(lmp, problem);
+  if (const std::string problem = Shearbox::mismatch(lmp); !problem.empty())
+    return refuse(lmp, problem);
 
   void *file = dlopen(file_beside_this("cdemstyles.so").c_str(), RTLD_NOW);
-  if (!file) return refuse(lmp, dlerror());
+  if (!file)
+    return refuse(lmp, dlerror());
   const auto styles = reinterpret_cast<decltype(&shearbox_styles)>(dlsym(file, "shearbox_styles"));
-  if (!styles) return refuse(lmp, dlerror());
+  if (!styles)
+    return refuse(lmp, dlerror());
 
   static const std::string info = "Shearbox " + Shearbox::version();
   for (const Shearbox::Style &s : *styles()) {
@@ -45,10 +49,14 @@ extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc) {
     plugin.info = info.c_str();
     plugin.author = "the Shearbox authors";
     plugin.handle = handle;
-    if (s.pair) plugin.creator.v1 = reinterpret_cast<lammpsplugin_factory1 *>(s.pair);
-    if (s.command) plugin.creator.v1 = reinterpret_cast<lammpsplugin_factory1 *>(s.command);
-    if (s.fix) plugin.creator.v2 = reinterpret_cast<lammpsplugin_factory2 *>(s.fix);
-    if (s.compute) plugin.creator.v2 = reinterpret_cast<lammpsplugin_factory2 *>(s.compute);
+    if (s.pair)
+      plugin.creator.v1 = reinterpret_cast<lammpsplugin_factory1 *>(s.pair);
+    if (s.command)
+      plugin.creator.v1 = reinterpret_cast<lammpsplugin_factory1 *>(s.command);
+    if (s.fix)
+      plugin.creator.v2 = reinterpret_cast<lammpsplugin_factory2 *>(s.fix);
+    if (s.compute)
+      plugin.creator.v2 = reinterpret_cast<lammpsplugin_factory2 *>(s.compute);
     reinterpret_cast<lammpsplugin_regfunc>(regfunc)(&plugin, lmp);
   }
 }

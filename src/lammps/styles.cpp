@@ -13,6 +13,7 @@
 #include "fix_cdem_integrate.h"
 #include "fix_cdem_lid.h"
 #include "fix_cdem_move.h"
+#include "fix_cdem_shape.h"
 #include "fix_cdem_trm.h"
 #include "pair.h"
 #include "pair_cdem.h"
@@ -53,6 +54,7 @@ const std::vector<Shearbox::Style> &Shearbox::styles() {
       pair<PairCDEM>("cdem"),
       fix<FixCDEMHistory>("cdem/history"),
       fix<FixCDEMIntegrate>("cdem/integrate"),
+      fix<FixCDEMShape>("cdem/shape"),
       fix<FixCDEMLid>("cdem/lid"),
       fix<FixCDEMMove>("cdem/move"),
       fix<FixCDEMTRM>("cdem/trm"),
