@@ -8,9 +8,8 @@ import sys
 from pathlib import Path
 
 import pytest
+from engine import ENVIRONMENT, PROGRAM
 
-BUILD = Path(__file__).resolve().parents[2] / "build"
-PROGRAM = BUILD / "lmp_cdem"
 STYLES = {
     "pair": {"cdem"},
     "fix": {"cdem/history", "cdem/integrate", "cdem/lid", "cdem/move", "cdem/trm"},
@@ -34,14 +33,11 @@ def run(cwd: Path, deck: str | None, ranks: int = 1, *options: str) -> subproces
     """Run a deck (None: an input file that is not there); a deadlock shows as a time-out."""
     if deck is not None:
         (cwd / "in.test").write_text(deck)
-    environment = os.environ | {"OMPI_MCA_rmaps_base_oversubscribe": "1"}
-    if os.geteuid() == 0:
-        environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
     command = [str(PROGRAM), "-in", "in.test", "-log", "none", *options]
     if ranks > 1:
-        command = ["mpirun", "-np", str(ranks), *command]
+        command = ["mpirun", "--oversubscribe", "-np", str(ranks), *command]
     return subprocess.run(
-        command, cwd=cwd, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60
+        command, cwd=cwd, env=ENVIRONMENT, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60
     )
 
 
@@ -105,7 +101,7 @@ def plugin_styles() -> None:
     arguments = [b"lmp", b"-log", b"none", b"-screen", b"none"]
     argv = (ctypes.c_char_p * len(arguments))(*arguments)
     lmp = ctypes.c_void_p(lammps.lammps_open_no_mpi(len(arguments), argv, None))
-    plugin = ctypes.CDLL(str(BUILD / "cdemplugin.so"))
+    plugin = ctypes.CDLL(str(PROGRAM.with_name("cdemplugin.so")))
     plugin.lammpsplugin_init(lmp, None, register)
 
 
