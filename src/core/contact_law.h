@@ -24,9 +24,9 @@ template <class T> struct Disc {
 
 // Constants of one pair of materials.
 struct Material {
-  double kn = 0, ks = 0;    // N/m
-  double hn = 0, hs = 0;    // damping ratios of the pair
-  double mu = 0;            // tan(phi)
+  double kn = 0, ks = 0; // N/m
+  double hn = 0, hs = 0; // damping ratios of the pair
+  double mu = 0;         // tan(phi)
 
   // dashpots over 2 sqrt(m)
   double dn() const { return hn * std::sqrt(kn); }
@@ -36,26 +36,19 @@ struct Material {
 // Constants of one pair of discs. The lever arm to the contact point is r_a - overlap/2 = (distance + r_a - r_b)/2.
 template <class T> struct Pair {
   T radius_sum, radius_difference;
-  T root_mass;    // 2 sqrt(m), m = m_a m_b/(m_a + m_b), or the grain's mass against a wall
+  T root_mass; // 2 sqrt(m), m = m_a m_b/(m_a + m_b), or the grain's mass against a wall
 };
 
 // What a contact remembers: the tangential spring force, and for the incremental law the normal one (N).
-template <class T> struct History {
-  T es, en;
-};
+template <class T> struct History { T es, en; };
 
 // Force on the first disc, and the torques on both, about the disc centres.
-template <class T> struct Forces {
-  T fx, fy, torque_a, torque_b;
-};
+template <class T> struct Forces { T fx, fy, torque_a, torque_b; };
 
 // Relative motion of the contact point of disc a against b, along n (from b to a) and t (n turned by +90 degrees).
-template <class T> struct Approach {
-  T n, t;
-};
+template <class T> struct Approach { T n, t; };
 
-template <class T> inline Approach<T> approach(T ux, T uy, T omega_a, T omega_b, T nx, T ny, T distance, T difference)
-{
+template <class T> inline Approach<T> approach(T ux, T uy, T omega_a, T omega_b, T nx, T ny, T distance, T difference) {
   const T spin = T(0.5) * (omega_a * (distance + difference) + omega_b * (distance - difference));
   return {ux * nx + uy * ny, uy * nx - ux * ny - spin};
 }
@@ -65,15 +58,15 @@ template <class T> inline Approach<T> approach(T ux, T uy, T omega_a, T omega_b,
 // fraction f of the step ago has acted during f, not 1/2, of it, so its dashpot counts f + 1/2 instead of 1, and
 // likewise for opening. Without this, the dashpot switches at step borders and the scheme is first order in time.
 template <class T> struct Edges {
-  T spring;     // fraction of this step's displacement that was made in contact
-  T dashpot;    // weight of the dashpot
+  T spring;  // fraction of this step's displacement that was made in contact
+  T dashpot; // weight of the dashpot
 };
 
-template <class T> inline Edges<T> edges(T overlap, T un_half, T un, double dt)
-{
-  const T since = -un_half * T(dt), until = un * T(dt);    // overlap gained in the last step, lost in the next
+template <class T> inline Edges<T> edges(T overlap, T un_half, T un, double dt) {
+  const T since = -un_half * T(dt), until = un * T(dt); // overlap gained in the last step, lost in the next
   const auto closed = overlap < since, opens = overlap < until;
-  if (!any(closed) && !any(opens)) return {T(1), T(1)};
+  if (!any(closed) && !any(opens))
+    return {T(1), T(1)};
   const T before = select(closed, overlap / select(closed, since, T(1)), T(1));
   const T after = select(opens, overlap / select(opens, until, T(1)), T(1));
   return {before, select(closed, before, T(0.5)) + select(opens, after, T(0.5))};
@@ -83,18 +76,19 @@ template <class T> inline Edges<T> edges(T overlap, T un_half, T un, double dt)
 // evaluate the force of the present state without changing what the contact remembers.
 template <Law law, bool limit_damping, class T>
 inline Forces<T> contact_force(const Disc<T> &a, const Disc<T> &b, const Pair<T> &pair, const Material &m, double dt,
-                               double dt_history, History<T> &history)
-{
+                               double dt_history, History<T> &history) {
   const T dx = a.x - b.x, dy = a.y - b.y;
   const T distance = square_root(dx * dx + dy * dy), inverse = T(1) / distance;
   const T overlap = pair.radius_sum - distance;
   const auto touch = overlap > T(0);
   const T nx = dx * inverse, ny = dy * inverse;
 
-  const Approach<T> half = approach<T>(a.vx_half - b.vx_half, a.vy_half - b.vy_half, a.omega_half, b.omega_half, nx, ny, distance,
-                                       pair.radius_difference);
-  const Approach<T> now = approach<T>(a.vx - b.vx, a.vy - b.vy, a.omega, b.omega, nx, ny, distance, pair.radius_difference);
-  const Edges<T> edge = edges<T>(select(touch, overlap, T(1)), select(touch, half.n, T(0)), select(touch, now.n, T(0)), dt);
+  const Approach<T> half = approach<T>(a.vx_half - b.vx_half, a.vy_half - b.vy_half, a.omega_half, b.omega_half, nx, ny,
+                                       distance, pair.radius_difference);
+  const Approach<T> now =
+      approach<T>(a.vx - b.vx, a.vy - b.vy, a.omega, b.omega, nx, ny, distance, pair.radius_difference);
+  const Edges<T> edge =
+      edges<T>(select(touch, overlap, T(1)), select(touch, half.n, T(0)), select(touch, now.n, T(0)), dt);
 
   T en = T(m.kn) * overlap;
   if constexpr (law == Law::incremental) {
@@ -112,11 +106,12 @@ inline Forces<T> contact_force(const Disc<T> &a, const Disc<T> &b, const Pair<T>
 
   const T dashpot = pair.root_mass * edge.dashpot;
   T fn = en - T(m.dn()) * dashpot * now.n;
-  if constexpr (limit_damping) fn = select(fn > T(0), fn, T(0));
+  if constexpr (limit_damping)
+    fn = select(fn > T(0), fn, T(0));
   fn = select(touch, fn, T(0));
   const T ft = select(touch, select(slides, es, es - T(m.ds()) * dashpot * now.t), T(0));
   return {fn * nx - ft * ny, fn * ny + ft * nx, T(-0.5) * ft * (distance + pair.radius_difference),
           T(-0.5) * ft * (distance - pair.radius_difference)};
 }
 
-}    // namespace cdem
+} // namespace cdem

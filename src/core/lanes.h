@@ -13,4 +13,4 @@ inline double magnitude(double x) { return std::fabs(x); }
 inline double with_sign_of(double size, double sign) { return std::copysign(size, sign); }
 inline bool any(bool condition) { return condition; }
 
-}    // namespace cdem
+} // namespace cdem

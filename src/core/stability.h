@@ -2,13 +2,20 @@
 // The largest stable time step of a packing (Otsubo, O'Sullivan, Shire 2017: it depends on the contacts of a grain, not
 // on the duration of one contact).
 //
-// The worst packing of equal discs is the triangular lattice: by Bloch's theorem its stiffest modes have the eigenvalue
-//   lambda = max(6 k_n + 3 k_s, 24 k_s) of K relative to m  (the second: all discs turning the same way).
+// The worst packing is the one where a grain has as many neighbours of its own kind as fit around it, N, and its
+// stiffest modes are those in which neighbours move against each other, or all turn the same way, so that every contact
+// sees twice the displacement of one grain. With the neighbours spread evenly, the largest eigenvalues of K are
+//   N (k_n + k_s/2)                        moving,  relative to m
+//   2 (k_n sum l_n^2 + k_s sum l_t^2)      turning, relative to I
+// with the lever arms l of the contacts. For equal discs in the triangular lattice this gives 6 k_n + 3 k_s and
+// 24 k_s m/m; by Bloch's theorem the true values there are at most that.
+//
 // The step scheme takes the dashpots at the half step, which is stable while the eigenvalues of dt^2 K + 2 dt C stay
 // below 4 m. With K and C of the same form this is a quadratic in dt.
 #pragma once
 
 #include "contact_law.h"
+#include "grain_shape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,19 +23,18 @@
 namespace cdem {
 
 // Positive root of stiffness dt^2 + 2 damping dt = 4 m.
-inline double largest_step(double stiffness, double damping, double m)
-{
+inline double largest_step(double stiffness, double damping, double m) {
   return stiffness > 0 ? (std::sqrt(damping * damping + 4 * m * stiffness) - damping) / stiffness : INFINITY;
 }
 
-// Limit for discs of mass m (kg) that have contacts of this material all around, s. `turning` is r^2 m / I, 2 for a disc.
-inline double step_limit(const Material &material, double m, double turning = 2)
-{
+// Limit (s) for grains of mass m (kg) that have contacts of this material with their like all around.
+inline double step_limit(const Material &material, const GrainShape &shape, double m) {
   const double root_mass = 2 * std::sqrt(m / 2);
   const double cn = material.dn() * root_mass, cs = material.ds() * root_mass;
-  const double moving = largest_step(6 * material.kn + 3 * material.ks, 6 * cn + 3 * cs, m);
-  const double spinning = largest_step(12 * turning * material.ks, 12 * turning * cs, m);
-  return std::min(moving, spinning);
+  const double n = shape.neighbours(), ln = 2 * shape.normal_levers(), lt = 2 * shape.tangential_levers();
+  const double moving = largest_step(n * (material.kn + 0.5 * material.ks), n * (cn + 0.5 * cs), m);
+  const double turning = largest_step(ln * material.kn + lt * material.ks, ln * cn + lt * cs, m * shape.inertia());
+  return std::min(moving, turning);
 }
 
-}    // namespace cdem
+} // namespace cdem

@@ -2,6 +2,7 @@
 #include "cdem_create.h"
 
 #include "core/fill.h"
+#include "fix_cdem_shape.h"
 
 #include "atom.h"
 #include "atom_vec.h"
@@ -167,6 +168,7 @@ void CDEMCreate::create(const std::vector<Disc> &discs) {
     largest = std::max(largest, atom->tag[i]);
   MPI_Allreduce(&largest, &offset, 1, MPI_LMP_TAGINT, MPI_MAX, world);
 
+  const double area = FixCDEMShape::shape(lmp, type).area();
   atom->nghost = 0; // new atoms take the ghosts' place
   atom->avec->clear_bonus();
   const int before = atom->nlocal;
@@ -179,7 +181,7 @@ void CDEMCreate::create(const std::vector<Disc> &discs) {
     const int i = atom->nlocal - 1;
     atom->tag[i] = offset + 1 + tagint(n);
     atom->radius[i] = 0.5 * disc.diameter;
-    atom->rmass[i] = density * PI * atom->radius[i] * atom->radius[i];
+    atom->rmass[i] = density * area * atom->radius[i] * atom->radius[i];
   }
   atom->data_fix_compute_variable(before, atom->nlocal);
 

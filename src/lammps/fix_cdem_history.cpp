@@ -15,8 +15,7 @@ namespace {
 constexpr int PER_CONTACT = 5;
 }
 
-FixCDEMHistory::FixCDEMHistory(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
-{
+FixCDEMHistory::FixCDEMHistory(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) {
   restart_global = 1;
   restart_peratom = 1;
   create_attribute = 1;
@@ -26,19 +25,14 @@ FixCDEMHistory::FixCDEMHistory(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, nar
   atom->add_callback(Atom::RESTART);
 }
 
-FixCDEMHistory::~FixCDEMHistory()
-{
+FixCDEMHistory::~FixCDEMHistory() {
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);
 }
 
-int FixCDEMHistory::setmask()
-{
-  return FixConst::PRE_EXCHANGE;
-}
+int FixCDEMHistory::setmask() { return FixConst::PRE_EXCHANGE; }
 
-void FixCDEMHistory::store(const std::vector<int> &count_of, const std::vector<std::pair<int, Contact>> &by_grain)
-{
+void FixCDEMHistory::store(const std::vector<int> &count_of, const std::vector<std::pair<int, Contact>> &by_grain) {
   contacts.resize(by_grain.size());
   int next = 0;
   for (std::size_t i = 0; i < count_of.size(); i++) {
@@ -46,62 +40,57 @@ void FixCDEMHistory::store(const std::vector<int> &count_of, const std::vector<s
     count[i] = 0;
     next += count_of[i];
   }
-  for (const auto &[i, contact] : by_grain) contacts[first[i] + count[i]++] = contact;
+  for (const auto &[i, contact] : by_grain)
+    contacts[first[i] + count[i]++] = contact;
   maxexchange = 1 + PER_CONTACT * (count_of.empty() ? 0 : *std::max_element(count_of.begin(), count_of.end()));
 }
 
-const FixCDEMHistory::Contact *FixCDEMHistory::find_contact(int i, tagint partner, int own_disc, int other_disc) const
-{
+const FixCDEMHistory::Contact *FixCDEMHistory::find_contact(int i, tagint partner, int own_disc, int other_disc) const {
   for (int k = first[i]; k < first[i] + count[i]; k++) {
     const Contact &c = contacts[k];
-    if (c.partner == partner && c.own_disc == own_disc && c.other_disc == other_disc) return &c;
+    if (c.partner == partner && c.own_disc == own_disc && c.other_disc == other_disc)
+      return &c;
   }
   return nullptr;
 }
 
-void FixCDEMHistory::pre_exchange()
-{
-  if (pair) pair->store_history();
+void FixCDEMHistory::pre_exchange() {
+  if (pair)
+    pair->store_history();
 }
 
 // The next run may find other grains, in another order: from here on the history is with the grains.
-void FixCDEMHistory::post_run()
-{
-  if (pair) pair->release_history();
+void FixCDEMHistory::post_run() {
+  if (pair)
+    pair->release_history();
 }
 
 // Called before the grains are packed. LAMMPS expects a global block: an empty one.
-void FixCDEMHistory::write_restart(FILE *fp)
-{
-  if (pair) pair->store_history();
+void FixCDEMHistory::write_restart(FILE *fp) {
+  if (pair)
+    pair->store_history();
   const int size = 0;
-  if (comm->me == 0) fwrite(&size, sizeof(int), 1, fp);
+  if (comm->me == 0)
+    fwrite(&size, sizeof(int), 1, fp);
 }
 
-double FixCDEMHistory::memory_usage()
-{
+double FixCDEMHistory::memory_usage() {
   return double((first.capacity() + count.capacity()) * sizeof(int) + contacts.capacity() * sizeof(Contact));
 }
 
-void FixCDEMHistory::grow_arrays(int nmax)
-{
+void FixCDEMHistory::grow_arrays(int nmax) {
   first.resize(nmax, 0);
   count.resize(nmax, 0);
 }
 
-void FixCDEMHistory::copy_arrays(int i, int j, int)
-{
+void FixCDEMHistory::copy_arrays(int i, int j, int) {
   first[j] = first[i];
   count[j] = count[i];
 }
 
-void FixCDEMHistory::set_arrays(int i)
-{
-  count[i] = 0;
-}
+void FixCDEMHistory::set_arrays(int i) { count[i] = 0; }
 
-int FixCDEMHistory::pack(int i, double *buf) const
-{
+int FixCDEMHistory::pack(int i, double *buf) const {
   double *out = buf;
   *out++ = count[i];
   for (int k = first[i]; k < first[i] + count[i]; k++) {
@@ -115,47 +104,35 @@ int FixCDEMHistory::pack(int i, double *buf) const
   return int(out - buf);
 }
 
-int FixCDEMHistory::unpack(int i, const double *buf)
-{
+int FixCDEMHistory::unpack(int i, const double *buf) {
   const double *in = buf;
   count[i] = int(*in++);
   first[i] = int(contacts.size());
   for (int k = 0; k < count[i]; k++, in += PER_CONTACT)
-    contacts.push_back({(tagint) ubuf(in[0]).i, int(in[1]), int(in[2]), in[3], in[4]});
+    contacts.push_back({(tagint)ubuf(in[0]).i, int(in[1]), int(in[2]), in[3], in[4]});
   return int(in - buf);
 }
 
-int FixCDEMHistory::pack_exchange(int i, double *buf)
-{
-  return pack(i, buf);
-}
+int FixCDEMHistory::pack_exchange(int i, double *buf) { return pack(i, buf); }
 
-int FixCDEMHistory::unpack_exchange(int i, double *buf)
-{
-  return unpack(i, buf);
-}
+int FixCDEMHistory::unpack_exchange(int i, double *buf) { return unpack(i, buf); }
 
-int FixCDEMHistory::pack_restart(int i, double *buf)
-{
+int FixCDEMHistory::pack_restart(int i, double *buf) {
   const int n = 1 + pack(i, buf + 1);
   buf[0] = n;
   return n;
 }
 
-void FixCDEMHistory::unpack_restart(int i, int nth)
-{
+void FixCDEMHistory::unpack_restart(int i, int nth) {
   const double *block = atom->extra[i];
-  for (int skip = 0; skip < nth; skip++) block += int(*block);
+  for (int skip = 0; skip < nth; skip++)
+    block += int(*block);
   unpack(i, block + 1);
 }
 
-int FixCDEMHistory::size_restart(int i)
-{
-  return 2 + PER_CONTACT * count[i];
-}
+int FixCDEMHistory::size_restart(int i) { return 2 + PER_CONTACT * count[i]; }
 
-int FixCDEMHistory::maxsize_restart()
-{
+int FixCDEMHistory::maxsize_restart() {
   const int n = count.empty() ? 0 : *std::max_element(count.begin(), count.begin() + atom->nlocal);
   int most;
   MPI_Allreduce(&n, &most, 1, MPI_INT, MPI_MAX, world);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// fix cdem/history: made by pair style cdem, not by the user. Between rebuilds the history of contacts lives in the pair
-// style's list; this fix holds it by grain while that list is rebuilt, when grains migrate, and in restart files.
+// fix cdem/history: made by pair style cdem, not by the user. Between rebuilds the history of contacts lives in the
+// pair style's list; this fix holds it by grain while that list is rebuilt, when grains migrate, and in restart files.
 #pragma once
 
 #include "fix.h"
@@ -12,7 +12,7 @@ namespace LAMMPS_NS {
 class PairCDEM;
 
 class FixCDEMHistory : public Fix {
- public:
+public:
   static constexpr const char *ID = "CDEM_HISTORY";
 
   // A contact as one of its grains remembers it: the other grain, the disc of either, and the history in the sense of
@@ -47,12 +47,12 @@ class FixCDEMHistory : public Fix {
 
   PairCDEM *pair = nullptr;
 
- private:
+private:
   int pack(int i, double *buf) const;
   int unpack(int i, const double *buf);
 
-  std::vector<int> first, count;      // per atom, into contacts
-  std::vector<Contact> contacts;      // arriving grains append; store() starts afresh
+  std::vector<int> first, count; // per atom, into contacts
+  std::vector<Contact> contacts; // arriving grains append; store() starts afresh
 };
 
-}    // namespace LAMMPS_NS
+} // namespace LAMMPS_NS

@@ -2,6 +2,7 @@
 #include "fix_cdem_integrate.h"
 
 #include "core/stability.h"
+#include "fix_cdem_shape.h"
 #include "pair_cdem.h"
 
 #include "atom.h"
@@ -22,32 +23,39 @@ using namespace LAMMPS_NS;
 namespace {
 constexpr double SAFE_FRACTION = 0.9;
 constexpr double UNKNOWN = NAN;
-}    // namespace
+} // namespace
 
-FixCDEMIntegrate *FixCDEMIntegrate::find(LAMMPS *lmp)
-{
+FixCDEMIntegrate *FixCDEMIntegrate::find(LAMMPS *lmp) {
   for (int i = 0; i < lmp->modify->nfix; i++)
-    if (auto *fix = dynamic_cast<FixCDEMIntegrate *>(lmp->modify->fix[i])) return fix;
+    if (auto *fix = dynamic_cast<FixCDEMIntegrate *>(lmp->modify->fix[i]))
+      return fix;
   return nullptr;
 }
 
-FixCDEMIntegrate::FixCDEMIntegrate(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), max_step(INFINITY)
-{
-  if (domain->dimension != 2) error->all(FLERR, "Fix cdem/integrate: dimension is {}, must be 2", domain->dimension);
-  if (!atom->sphere_flag) error->all(FLERR, "Fix cdem/integrate needs atom_style sphere");
-  if (find(lmp)) error->all(FLERR, "Fix cdem/integrate {}: there is one already, {}", id, find(lmp)->id);
+FixCDEMIntegrate::FixCDEMIntegrate(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), max_step(INFINITY) {
+  if (domain->dimension != 2)
+    error->all(FLERR, "Fix cdem/integrate: dimension is {}, must be 2", domain->dimension);
+  if (!atom->sphere_flag)
+    error->all(FLERR, "Fix cdem/integrate needs atom_style sphere");
+  if (find(lmp))
+    error->all(FLERR, "Fix cdem/integrate {}: there is one already, {}", id, find(lmp)->id);
 
   int iarg = 3;
   if (iarg < narg && strcmp(arg[iarg], "dt") == 0) {
     const std::string word = iarg + 1 < narg ? arg[iarg + 1] : "nothing";
-    if (word == "check") rule = Step::check;
-    else if (word == "any") rule = Step::any;
-    else if (word == "auto") rule = Step::automatic;
-    else error->all(FLERR, "Fix cdem/integrate: dt {}: must be check, any or auto", word);
+    if (word == "check")
+      rule = Step::check;
+    else if (word == "any")
+      rule = Step::any;
+    else if (word == "auto")
+      rule = Step::automatic;
+    else
+      error->all(FLERR, "Fix cdem/integrate: dt {}: must be check, any or auto", word);
     iarg += 2;
     if (rule == Step::automatic && iarg < narg) {
       max_step = utils::numeric(FLERR, arg[iarg++], false, lmp);
-      if (!(max_step > 0)) error->all(FLERR, "Fix cdem/integrate: dt auto {}: the maximum must be positive", max_step);
+      if (!(max_step > 0))
+        error->all(FLERR, "Fix cdem/integrate: dt auto {}: the maximum must be positive", max_step);
     }
   }
   if (iarg < narg)
@@ -65,55 +73,59 @@ FixCDEMIntegrate::FixCDEMIntegrate(LAMMPS *lmp, int narg, char **arg) : Fix(lmp,
   FixCDEMIntegrate::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
-  for (int i = 0; i < atom->nlocal; i++) FixCDEMIntegrate::set_arrays(i);
+  for (int i = 0; i < atom->nlocal; i++)
+    FixCDEMIntegrate::set_arrays(i);
 }
 
-FixCDEMIntegrate::~FixCDEMIntegrate()
-{
+FixCDEMIntegrate::~FixCDEMIntegrate() {
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);
   memory->destroy(state);
 }
 
-int FixCDEMIntegrate::setmask()
-{
-  return FixConst::INITIAL_INTEGRATE | FixConst::FINAL_INTEGRATE;
-}
+int FixCDEMIntegrate::setmask() { return FixConst::INITIAL_INTEGRATE | FixConst::FINAL_INTEGRATE; }
 
-void FixCDEMIntegrate::init()
-{
-  if (!dynamic_cast<PairCDEM *>(force->pair)) error->all(FLERR, "Fix cdem/integrate needs pair_style cdem");
+void FixCDEMIntegrate::init() {
+  if (!dynamic_cast<PairCDEM *>(force->pair))
+    error->all(FLERR, "Fix cdem/integrate needs pair_style cdem");
+  inertia.assign(1, 0);
+  for (int type = 1; type <= atom->ntypes; type++)
+    inertia.push_back(FixCDEMShape::shape(lmp, type).inertia());
   limit = scene_limit();
   apply_step_rule();
 }
 
 // The smallest limit over all grains, each as if surrounded by its like.
-double FixCDEMIntegrate::scene_limit() const
-{
+double FixCDEMIntegrate::scene_limit() const {
   const auto *pair = static_cast<PairCDEM *>(force->pair);
   double smallest = INFINITY;
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!is_free(i)) continue;
+    if (!is_free(i))
+      continue;
+    const cdem::GrainShape &shape = FixCDEMShape::shape(lmp, atom->type[i]);
     for (int other = 1; other <= atom->ntypes; other++)
-      smallest = std::min(smallest, cdem::step_limit(pair->material(atom->type[i], other), atom->rmass[i]));
+      smallest = std::min(smallest, cdem::step_limit(pair->material(atom->type[i], other), shape, atom->rmass[i]));
   }
   double all;
   MPI_Allreduce(&smallest, &all, 1, MPI_DOUBLE, MPI_MIN, world);
   return all;
 }
 
-void FixCDEMIntegrate::apply_step_rule()
-{
+void FixCDEMIntegrate::apply_step_rule() {
   if (rule == Step::automatic) {
     const double step = std::min(SAFE_FRACTION * limit, max_step);
-    if (!std::isfinite(step)) error->all(FLERR, "Fix cdem/integrate: dt auto finds no grain in its group and has no MAX");
-    if (step == update->dt) return;
+    if (!std::isfinite(step))
+      error->all(FLERR, "Fix cdem/integrate: dt auto finds no grain in its group and has no MAX");
+    if (step == update->dt)
+      return;
     update->update_time();
     update->dt = step;
     update->dt_default = 0;
     force->pair->reset_dt();
-    for (int i = 0; i < modify->nfix; i++) modify->fix[i]->reset_dt();
-    if (comm->me == 0) utils::logmesg(lmp, "Fix cdem/integrate: time step {:.4g} s, stability limit {:.4g} s\n", step, limit);
+    for (int i = 0; i < modify->nfix; i++)
+      modify->fix[i]->reset_dt();
+    if (comm->me == 0)
+      utils::logmesg(lmp, "Fix cdem/integrate: time step {:.4g} s, stability limit {:.4g} s\n", step, limit);
   } else if (rule == Step::check && update->dt > limit) {
     error->all(FLERR,
                "Fix cdem/integrate: the time step {:.4g} is beyond the stability limit {:.4g} of this scene (smallest "
@@ -122,49 +134,39 @@ void FixCDEMIntegrate::apply_step_rule()
   }
 }
 
-bool FixCDEMIntegrate::is_free(int i) const
-{
-  return atom->mask[i] & groupbit;
-}
+bool FixCDEMIntegrate::is_free(int i) const { return atom->mask[i] & groupbit; }
 
-bool FixCDEMIntegrate::knows_acceleration(int i) const
-{
+bool FixCDEMIntegrate::knows_acceleration(int i) const {
   return valid_step == update->ntimestep && !std::isnan(state[i][AX]);
 }
 
-double FixCDEMIntegrate::prediction_weight() const
-{
+double FixCDEMIntegrate::prediction_weight() const {
   const double ratio = update->dt / limit;
   return ratio < 1 ? 1 - ratio * ratio : 0;
 }
 
-double FixCDEMIntegrate::inertia(int i) const
-{
-  return 0.5 * atom->rmass[i] * atom->radius[i] * atom->radius[i];
-}
-
-void FixCDEMIntegrate::take_acceleration(int i)
-{
+void FixCDEMIntegrate::take_acceleration(int i) {
   const double per_mass = 1 / atom->rmass[i];
   state[i][AX] = per_mass * atom->f[i][0];
   state[i][AY] = per_mass * atom->f[i][1];
-  state[i][ALPHA] = atom->torque[i][2] / inertia(i);
+  state[i][ALPHA] = per_mass * atom->torque[i][2] / (inertia[atom->type[i]] * atom->radius[i] * atom->radius[i]);
 }
 
-void FixCDEMIntegrate::setup(int)
-{
+void FixCDEMIntegrate::setup(int) {
   for (int i = 0; i < atom->nlocal; i++) {
-    if (is_free(i) && !knows_acceleration(i)) take_acceleration(i);
-    if (std::isnan(state[i][AX])) state[i][AX] = 0;
+    if (is_free(i) && !knows_acceleration(i))
+      take_acceleration(i);
+    if (std::isnan(state[i][AX]))
+      state[i][AX] = 0;
   }
   valid_step = update->ntimestep;
 }
 
-void FixCDEMIntegrate::initial_integrate(int)
-{
+void FixCDEMIntegrate::initial_integrate(int) {
   const double dt = update->dt, half = 0.5 * dt;
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!is_free(i)) continue;
+    if (!is_free(i))
+      continue;
     double *const x = atom->x[i], *const v = atom->v[i], *const omega = atom->omega[i];
     v[0] += half * state[i][AX];
     v[1] += half * state[i][AY];
@@ -175,11 +177,11 @@ void FixCDEMIntegrate::initial_integrate(int)
   }
 }
 
-void FixCDEMIntegrate::final_integrate()
-{
+void FixCDEMIntegrate::final_integrate() {
   const double half = 0.5 * update->dt;
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!is_free(i)) continue;
+    if (!is_free(i))
+      continue;
     take_acceleration(i);
     double *const v = atom->v[i];
     v[0] += half * state[i][AX];
@@ -189,91 +191,69 @@ void FixCDEMIntegrate::final_integrate()
   valid_step = update->ntimestep;
 }
 
-double FixCDEMIntegrate::compute_scalar()
-{
-  return limit;
-}
+double FixCDEMIntegrate::compute_scalar() { return limit; }
 
-double FixCDEMIntegrate::memory_usage()
-{
-  return double(atom->nmax) * NCOLUMNS * sizeof(double);
-}
+double FixCDEMIntegrate::memory_usage() { return double(atom->nmax) * NCOLUMNS * sizeof(double); }
 
-void FixCDEMIntegrate::grow_arrays(int nmax)
-{
+void FixCDEMIntegrate::grow_arrays(int nmax) {
   memory->grow(state, nmax, int(NCOLUMNS), "cdem/integrate:state");
   array_atom = state;
 }
 
-void FixCDEMIntegrate::copy_arrays(int i, int j, int)
-{
-  std::copy_n(state[i], int(NCOLUMNS), state[j]);
-}
+void FixCDEMIntegrate::copy_arrays(int i, int j, int) { std::copy_n(state[i], int(NCOLUMNS), state[j]); }
 
-void FixCDEMIntegrate::set_arrays(int i)
-{
+void FixCDEMIntegrate::set_arrays(int i) {
   std::fill_n(state[i], int(NCOLUMNS), 0.0);
-  const bool running = update->whichflag != 0;    // no setup() follows, and the atom had no step to be accelerated in
-  if (!running) state[i][AX] = UNKNOWN;
+  const bool running = update->whichflag != 0; // no setup() follows, and the atom had no step to be accelerated in
+  if (!running)
+    state[i][AX] = UNKNOWN;
 }
 
-int FixCDEMIntegrate::pack_exchange(int i, double *buf)
-{
+int FixCDEMIntegrate::pack_exchange(int i, double *buf) {
   std::copy_n(state[i], int(NCOLUMNS), buf);
   return NCOLUMNS;
 }
 
-int FixCDEMIntegrate::unpack_exchange(int i, double *buf)
-{
+int FixCDEMIntegrate::unpack_exchange(int i, double *buf) {
   std::copy_n(buf, int(NCOLUMNS), state[i]);
   return NCOLUMNS;
 }
 
-int FixCDEMIntegrate::pack_forward_comm(int n, int *list, double *buf, int, int *)
-{
-  for (int k = 0; k < n; k++) buf = std::copy_n(state[list[k]], int(NCOLUMNS), buf);
+int FixCDEMIntegrate::pack_forward_comm(int n, int *list, double *buf, int, int *) {
+  for (int k = 0; k < n; k++)
+    buf = std::copy_n(state[list[k]], int(NCOLUMNS), buf);
   return n * NCOLUMNS;
 }
 
-void FixCDEMIntegrate::unpack_forward_comm(int n, int first, double *buf)
-{
-  for (int i = first; i < first + n; i++, buf += NCOLUMNS) std::copy_n(buf, int(NCOLUMNS), state[i]);
+void FixCDEMIntegrate::unpack_forward_comm(int n, int first, double *buf) {
+  for (int i = first; i < first + n; i++, buf += NCOLUMNS)
+    std::copy_n(buf, int(NCOLUMNS), state[i]);
 }
 
-void FixCDEMIntegrate::write_restart(FILE *fp)
-{
-  if (comm->me != 0) return;
+void FixCDEMIntegrate::write_restart(FILE *fp) {
+  if (comm->me != 0)
+    return;
   const int size = sizeof(valid_step);
   fwrite(&size, sizeof(int), 1, fp);
   fwrite(&valid_step, sizeof(valid_step), 1, fp);
 }
 
-void FixCDEMIntegrate::restart(char *buf)
-{
-  memcpy(&valid_step, buf, sizeof(valid_step));
-}
+void FixCDEMIntegrate::restart(char *buf) { memcpy(&valid_step, buf, sizeof(valid_step)); }
 
-int FixCDEMIntegrate::pack_restart(int i, double *buf)
-{
+int FixCDEMIntegrate::pack_restart(int i, double *buf) {
   buf[0] = NCOLUMNS + 1;
   std::copy_n(state[i], int(NCOLUMNS), buf + 1);
   return NCOLUMNS + 1;
 }
 
 // atom->extra holds the data of all fixes one after the other, each block with its length in front.
-void FixCDEMIntegrate::unpack_restart(int i, int nth)
-{
+void FixCDEMIntegrate::unpack_restart(int i, int nth) {
   const double *block = atom->extra[i];
-  for (int skip = 0; skip < nth; skip++) block += int(*block);
+  for (int skip = 0; skip < nth; skip++)
+    block += int(*block);
   std::copy_n(block + 1, int(NCOLUMNS), state[i]);
 }
 
-int FixCDEMIntegrate::size_restart(int)
-{
-  return NCOLUMNS + 1;
-}
+int FixCDEMIntegrate::size_restart(int) { return NCOLUMNS + 1; }
 
-int FixCDEMIntegrate::maxsize_restart()
-{
-  return NCOLUMNS + 1;
-}
+int FixCDEMIntegrate::maxsize_restart() { return NCOLUMNS + 1; }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // fix ID group cdem/integrate [dt check|any|auto [MAX]]
 //
-// Velocity Verlet for grains in the plane, with the mass m and the inertia I of a disc, I = m r^2/2. Atoms outside the
-// group are walls: contacts don't move them. Exactly one fix of this style must exist.
+// Velocity Verlet for grains in the plane, with inertia I = m r^2/2 for a disc, or as fix cdem/shape has it. Atoms
+// outside the group are walls: contacts don't move them. Exactly one fix of this style must exist.
 //
 //   dt check     refuse a time step beyond the stability limit of the scene (default)
 //   dt any       run with any time step
@@ -15,10 +15,12 @@
 
 #include "fix.h"
 
+#include <vector>
+
 namespace LAMMPS_NS {
 
 class FixCDEMIntegrate : public Fix {
- public:
+public:
   enum Column { AX, AY, ALPHA, ANGLE, NCOLUMNS };
 
   // The fix of this style, or null.
@@ -56,20 +58,20 @@ class FixCDEMIntegrate : public Fix {
   // stability limit of the scheme without it.
   double prediction_weight() const;
 
-  double **state = nullptr;    // NCOLUMNS per atom
+  double **state = nullptr; // NCOLUMNS per atom
 
- private:
+private:
   enum class Step { check, any, automatic };
 
   double scene_limit() const;
   void apply_step_rule();
-  double inertia(int i) const;
   void take_acceleration(int i);
 
   Step rule = Step::check;
   double max_step;
   double limit = 0;
-  bigint valid_step = -1;    // the step at whose end `state` was written
+  std::vector<double> inertia; // over mass radius^2, by type
+  bigint valid_step = -1;      // the step at whose end `state` was written
 };
 
-}    // namespace LAMMPS_NS
+} // namespace LAMMPS_NS

@@ -4,6 +4,7 @@
 #include "compat.h"
 #include "fix_cdem_history.h"
 #include "fix_cdem_integrate.h"
+#include "fix_cdem_shape.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -28,8 +29,7 @@ namespace {
 constexpr double DEGREE = M_PI / 180;
 }
 
-PairCDEM::PairCDEM(LAMMPS *lmp) : Pair(lmp)
-{
+PairCDEM::PairCDEM(LAMMPS *lmp) : Pair(lmp) {
   restartinfo = 1;
   single_enable = 1;
   single_extra = 3;
@@ -39,50 +39,55 @@ PairCDEM::PairCDEM(LAMMPS *lmp) : Pair(lmp)
   finitecutflag = 1;
 }
 
-PairCDEM::~PairCDEM()
-{
+PairCDEM::~PairCDEM() {
   delete[] svector;
   if (allocated) {
     memory->destroy(setflag);
     memory->destroy(cutsq);
   }
-  if (history && Shearbox::fix_by_id(lmp, FixCDEMHistory::ID)) modify->delete_fix(FixCDEMHistory::ID);
+  if (history && Shearbox::fix_by_id(lmp, FixCDEMHistory::ID))
+    modify->delete_fix(FixCDEMHistory::ID);
 }
 
-void PairCDEM::allocate()
-{
+void PairCDEM::allocate() {
   allocated = 1;
   const int n = atom->ntypes;
   memory->create(setflag, n + 1, n + 1, "pair:setflag");
   memory->create(cutsq, n + 1, n + 1, "pair:cutsq");
-  for (int i = 1; i <= n; i++) std::fill_n(setflag[i], n + 1, 0);
+  for (int i = 1; i <= n; i++)
+    std::fill_n(setflag[i], n + 1, 0);
   materials.assign(n + 1, std::vector<cdem::Material>(n + 1));
 }
 
-void PairCDEM::settings(int narg, char **arg)
-{
+void PairCDEM::settings(int narg, char **arg) {
   bool law_given = false;
   for (int k = 0; k < narg; k += 2) {
     const std::string key = arg[k], value = k + 1 < narg ? arg[k + 1] : "nothing";
     if (key == "law") {
-      if (value == "direct") law = cdem::Law::direct;
-      else if (value == "incremental") law = cdem::Law::incremental;
-      else error->all(FLERR, "Pair style cdem: law {}: must be direct or incremental", value);
+      if (value == "direct")
+        law = cdem::Law::direct;
+      else if (value == "incremental")
+        law = cdem::Law::incremental;
+      else
+        error->all(FLERR, "Pair style cdem: law {}: must be direct or incremental", value);
       law_given = true;
     } else if (key == "limit_damping") {
-      if (value != "yes" && value != "no") error->all(FLERR, "Pair style cdem: limit_damping {}: must be yes or no", value);
+      if (value != "yes" && value != "no")
+        error->all(FLERR, "Pair style cdem: limit_damping {}: must be yes or no", value);
       limit_damping = value == "yes";
     } else {
       error->all(FLERR, "Pair style cdem: unknown keyword {}; allowed: law, limit_damping", key);
     }
   }
-  if (!law_given) error->all(FLERR, "Pair style cdem: 'law direct' or 'law incremental' must be given");
+  if (!law_given)
+    error->all(FLERR, "Pair style cdem: 'law direct' or 'law incremental' must be given");
 }
 
-void PairCDEM::coeff(int narg, char **arg)
-{
-  if (narg != 7) error->all(FLERR, "Pair coeff cdem has {} arguments; needed: I J kn ks hn hs phi", narg);
-  if (!allocated) allocate();
+void PairCDEM::coeff(int narg, char **arg) {
+  if (narg != 7)
+    error->all(FLERR, "Pair coeff cdem has {} arguments; needed: I J kn ks hn hs phi", narg);
+  if (!allocated)
+    allocate();
 
   int ilo, ihi, jlo, jhi;
   utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
@@ -95,8 +100,10 @@ void PairCDEM::coeff(int narg, char **arg)
     if (!std::isfinite(value[k]) || value[k] < 0)
       error->all(FLERR, "Pair coeff cdem: {} = {} must be a number, not negative", names[k], arg[k + 2]);
   }
-  if (value[0] == 0) error->all(FLERR, "Pair coeff cdem: kn = 0 must be positive");
-  if (value[4] >= 90) error->all(FLERR, "Pair coeff cdem: phi = {} degrees must be below 90", value[4]);
+  if (value[0] == 0)
+    error->all(FLERR, "Pair coeff cdem: kn = 0 must be positive");
+  if (value[4] >= 90)
+    error->all(FLERR, "Pair coeff cdem: phi = {} degrees must be below 90", value[4]);
 
   const cdem::Material m{value[0], value[1], value[2], value[3], std::tan(value[4] * DEGREE)};
   int count = 0;
@@ -106,16 +113,21 @@ void PairCDEM::coeff(int narg, char **arg)
       setflag[i][j] = 1;
       count++;
     }
-  if (count == 0) error->all(FLERR, "Pair coeff cdem {} {} names no pair of types I <= J", arg[0], arg[1]);
+  if (count == 0)
+    error->all(FLERR, "Pair coeff cdem {} {} names no pair of types I <= J", arg[0], arg[1]);
 }
 
-void PairCDEM::check_setting() const
-{
-  if (domain->dimension != 2) error->all(FLERR, "Pair style cdem: dimension is {}, must be 2", domain->dimension);
-  if (force->newton_pair) error->all(FLERR, "Pair style cdem: newton is on, must be off ('newton off' before the box is made)");
-  if (!atom->sphere_flag) error->all(FLERR, "Pair style cdem needs atom_style sphere");
-  if (!comm->ghost_velocity) error->all(FLERR, "Pair style cdem needs 'comm_modify vel yes'");
-  if (!integrate) error->all(FLERR, "Pair style cdem needs a fix cdem/integrate: atoms outside its group are walls");
+void PairCDEM::check_setting() const {
+  if (domain->dimension != 2)
+    error->all(FLERR, "Pair style cdem: dimension is {}, must be 2", domain->dimension);
+  if (force->newton_pair)
+    error->all(FLERR, "Pair style cdem: newton is on, must be off ('newton off' before the box is made)");
+  if (!atom->sphere_flag)
+    error->all(FLERR, "Pair style cdem needs atom_style sphere");
+  if (!comm->ghost_velocity)
+    error->all(FLERR, "Pair style cdem needs 'comm_modify vel yes'");
+  if (!integrate)
+    error->all(FLERR, "Pair style cdem needs a fix cdem/integrate: atoms outside its group are walls");
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->radius[i] > 0))
       error->one(FLERR, "Pair style cdem: atom {} has radius {}, must be positive", atom->tag[i], atom->radius[i]);
@@ -124,49 +136,79 @@ void PairCDEM::check_setting() const
   }
 }
 
-void PairCDEM::init_style()
-{
+void PairCDEM::init_style() {
   integrate = FixCDEMIntegrate::find(lmp);
   check_setting();
+  read_shapes();
   Shearbox::request_half_size_list(lmp, this, instance_me);
 
-  if (!history) history = static_cast<FixCDEMHistory *>(modify->add_fix(std::string(FixCDEMHistory::ID) + " all cdem/history"));
+  if (!history)
+    history = static_cast<FixCDEMHistory *>(modify->add_fix(std::string(FixCDEMHistory::ID) + " all cdem/history"));
   history->pair = this;
 
   std::vector<double> mine(atom->ntypes + 1, 0.0);
-  for (int i = 0; i < atom->nlocal; i++) mine[atom->type[i]] = std::max(mine[atom->type[i]], atom->radius[i]);
+  for (int i = 0; i < atom->nlocal; i++)
+    mine[atom->type[i]] = std::max(mine[atom->type[i]], atom->radius[i]);
   largest_radius.resize(mine.size());
   MPI_Allreduce(mine.data(), largest_radius.data(), int(mine.size()), MPI_DOUBLE, MPI_MAX, world);
 }
 
-double PairCDEM::init_one(int i, int j)
-{
-  if (!setflag[i][j]) error->all(FLERR, "Pair style cdem: no pair_coeff for types {} and {}", i, j);
+double PairCDEM::init_one(int i, int j) {
+  if (!setflag[i][j])
+    error->all(FLERR, "Pair style cdem: no pair_coeff for types {} and {}", i, j);
   return largest_radius[i] + largest_radius[j];
 }
 
-void PairCDEM::compute(int eflag, int vflag)
-{
-  ev_init(eflag, vflag);
-  if (atom->nghost || comm->nprocs > 1) Shearbox::forward_comm(lmp, integrate);
-  fill_rows();
-  if (neighbor->ago == 0) build_list();
-  history_in_list = true;
-  cdem::compute_forces(law, limit_damping, rows.data(), pairs, update->dt, update->setupflag ? 0 : update->dt);
-  sum_forces();
-  if (evflag) tally();
+void PairCDEM::read_shapes() {
+  shapes.assign(1, nullptr);
+  for (int type = 1; type <= atom->ntypes; type++)
+    shapes.push_back(&FixCDEMShape::shape(lmp, type));
+  clumps = std::any_of(shapes.begin() + 1, shapes.end(), [](const auto *s) { return s->discs().size() > 1; });
 }
 
-// During a step, v and omega are those of the half step; at setup they are those of the full step.
-void PairCDEM::fill_rows()
-{
-  const int nall = atom->nlocal + atom->nghost;
+void PairCDEM::compute(int eflag, int vflag) {
+  ev_init(eflag, vflag);
+  if (atom->nghost || comm->nprocs > 1)
+    Shearbox::forward_comm(lmp, integrate);
+  const bool rebuilt = neighbor->ago == 0;
+  if (clumps && rebuilt)
+    map_rows();
+
+  // During a step, v and omega are those of the half step; at setup they are those of the full step.
   const double forward = update->setupflag ? 0 : 0.5 * update->dt * integrate->prediction_weight();
+  clumps ? fill_clump_rows(forward) : fill_disc_rows(forward);
+  if (rebuilt) {
+    build_list();
+  } else if (clumps && turned_out_of_list()) {
+    store_history();
+    build_list();
+  }
+  history_in_list = true;
+  cdem::compute_forces(law, limit_damping, rows.data(), pairs, update->dt, update->setupflag ? 0 : update->dt);
+  clumps ? sum_clump_forces() : sum_disc_forces();
+  if (evflag)
+    tally();
+}
+
+void PairCDEM::map_rows() {
+  const int nall = atom->nlocal + atom->nghost;
+  first_row.resize(nall + 1);
+  grain_of_row.clear();
+  for (int i = 0; i < nall; i++) {
+    first_row[i] = int(grain_of_row.size());
+    grain_of_row.insert(grain_of_row.end(), shapes[atom->type[i]]->discs().size(), i);
+  }
+  first_row[nall] = int(grain_of_row.size());
+}
+
+void PairCDEM::fill_disc_rows(double forward) {
+  const int nall = atom->nlocal + atom->nghost;
   rows.resize(nall);
   for (int i = 0; i < nall; i++) {
     const double *const x = atom->x[i], *const v = atom->v[i], omega = atom->omega[i][2];
     rows[i] = {x[0], x[1], v[0], v[1], omega, v[0], v[1], omega};
-    if (forward == 0) continue;
+    if (forward == 0)
+      continue;
     const double *const a = integrate->state[i];
     rows[i].vx += forward * a[FixCDEMIntegrate::AX];
     rows[i].vy += forward * a[FixCDEMIntegrate::AY];
@@ -174,74 +216,146 @@ void PairCDEM::fill_rows()
   }
 }
 
-void PairCDEM::build_list()
-{
-  sort_by_material(find_candidates());
+// A disc at offset o from the grain's centre moves with v + omega x o. Over the step it moved with the offset of the
+// half step, o - dt/2 omega x o, which adds dt/2 omega^2 o.
+void PairCDEM::fill_clump_rows(double forward) {
+  const int nall = atom->nlocal + atom->nghost;
+  const double half = update->setupflag ? 0 : 0.5 * update->dt;
+  rows.resize(grain_of_row.size());
+  auto *row = rows.data();
+  for (int i = 0; i < nall; i++) {
+    const double *const x = atom->x[i], *const v = atom->v[i], omega = atom->omega[i][2];
+    const double *const a = integrate->state[i];
+    const bool predict = forward != 0;
+    const double vx = predict ? v[0] + forward * a[FixCDEMIntegrate::AX] : v[0];
+    const double vy = predict ? v[1] + forward * a[FixCDEMIntegrate::AY] : v[1];
+    const double spin = predict ? omega + forward * a[FixCDEMIntegrate::ALPHA] : omega;
+    const double inward = half * omega * omega;
+    const double c = atom->radius[i] * std::cos(a[FixCDEMIntegrate::ANGLE]);
+    const double s = atom->radius[i] * std::sin(a[FixCDEMIntegrate::ANGLE]);
+    for (const auto &member : shapes[atom->type[i]]->discs()) {
+      const double ox = c * member.x - s * member.y, oy = s * member.x + c * member.y;
+      *row++ = {x[0] + ox,
+                x[1] + oy,
+                v[0] - omega * oy + inward * ox,
+                v[1] + omega * ox + inward * oy,
+                omega,
+                vx - spin * oy,
+                vy + spin * ox,
+                spin};
+    }
+  }
+}
+
+// LAMMPS rebuilds its list of grain pairs when a centre has moved by half the skin. The list of disc pairs drawn from
+// it also ages when a grain turns; that is for this rank alone to see to, and needs no communication.
+bool PairCDEM::turned_out_of_list() const {
+  const double most = 0.5 * neighbor->skin;
+  for (std::size_t i = 0; i < built_at.size(); i++) {
+    const Place &then = built_at[i];
+    const double dx = atom->x[i][0] - then.x, dy = atom->x[i][1] - then.y;
+    const double turn = std::fabs(integrate->state[i][FixCDEMIntegrate::ANGLE] - then.angle);
+    const double left = most - turn * atom->radius[i] * shapes[atom->type[i]]->reach();
+    if (left < 0 || dx * dx + dy * dy > left * left)
+      return true;
+  }
+  return false;
+}
+
+void PairCDEM::build_list() {
+  find_candidates();
+  sort_by_material();
   for (int k = 0; k < pairs.size(); k++) {
     set_constants(k);
     recall_history(k);
   }
-  const tagint *const tag = atom->tag;
-  sums.build(pairs, atom->nlocal, [tag](int i, int j) { return tag[i] < tag[j]; });
+  sums.build(pairs, rows_of(atom->nlocal), [this](int p, int q) { return row_before(p, q); });
+  if (!clumps)
+    return;
+  built_at.resize(atom->nlocal + atom->nghost);
+  for (std::size_t i = 0; i < built_at.size(); i++)
+    built_at[i] = {atom->x[i][0], atom->x[i][1], integrate->state[i][FixCDEMIntegrate::ANGLE]};
 }
 
-std::vector<PairCDEM::Candidate> PairCDEM::find_candidates() const
-{
-  std::vector<Candidate> found;
-  const int types = atom->ntypes + 1;
+// The order of all sums: by the id of the grain, then by the disc.
+bool PairCDEM::row_before(int p, int q) const {
+  const tagint tag_p = atom->tag[grain(p)], tag_q = atom->tag[grain(q)];
+  return tag_p != tag_q ? tag_p < tag_q : disc(p) < disc(q);
+}
+
+double PairCDEM::disc_radius(int row) const {
+  const int i = grain(row);
+  return clumps ? atom->radius[i] * shapes[atom->type[i]]->discs()[disc(row)].r : atom->radius[i];
+}
+
+void PairCDEM::find_candidates() {
+  candidates.clear();
   for (int ii = 0; ii < list->inum; ii++) {
     const int i = list->ilist[ii];
     for (int jj = 0; jj < list->numneigh[i]; jj++) {
       const int j = list->firstneigh[i][jj] & NEIGHMASK;
-      if (!integrate->is_free(i) && !integrate->is_free(j)) continue;
-      const bool i_first = atom->tag[i] < atom->tag[j];
-      const auto [low, high] = std::minmax(atom->type[i], atom->type[j]);
-      found.push_back({i_first ? i : j, i_first ? j : i, low * types + high});
+      if (!integrate->is_free(i) && !integrate->is_free(j))
+        continue;
+      if (!clumps) {
+        add_candidate(i, j);
+        continue;
+      }
+      for (int p = first_row[i]; p < first_row[i + 1]; p++)
+        for (int q = first_row[j]; q < first_row[j + 1]; q++)
+          if (std::hypot(rows[p].x - rows[q].x, rows[p].y - rows[q].y) <
+              disc_radius(p) + disc_radius(q) + neighbor->skin)
+            add_candidate(p, q);
     }
   }
-  return found;
 }
 
-void PairCDEM::sort_by_material(const std::vector<Candidate> &found)
-{
+void PairCDEM::add_candidate(int p, int q) {
+  const int i = grain(p), j = grain(q);
+  const bool p_first = atom->tag[i] < atom->tag[j];
+  const auto [low, high] = std::minmax(atom->type[i], atom->type[j]);
+  candidates.push_back({p_first ? p : q, p_first ? q : p, low * (atom->ntypes + 1) + high});
+}
+
+void PairCDEM::sort_by_material() {
   const int types = atom->ntypes + 1;
   std::vector<int> next(types * types + 1, 0);
-  for (const auto &c : found) next[c.material + 1]++;
-  for (int m = 0; m < types * types; m++) next[m + 1] += next[m];
+  for (const auto &c : candidates)
+    next[c.material + 1]++;
+  for (int m = 0; m < types * types; m++)
+    next[m + 1] += next[m];
 
   pairs.segments.clear();
   for (int m = 0; m < types * types; m++)
-    if (next[m] < next[m + 1]) pairs.segments.push_back({materials[m / types][m % types], next[m], next[m + 1]});
+    if (next[m] < next[m + 1])
+      pairs.segments.push_back({materials[m / types][m % types], next[m], next[m + 1]});
 
-  pairs.resize(int(found.size()));
-  for (const auto &c : found) {
+  pairs.resize(int(candidates.size()));
+  for (const auto &c : candidates) {
     const int k = next[c.material]++;
     pairs.a[k] = c.a;
     pairs.b[k] = c.b;
   }
 }
 
-void PairCDEM::set_constants(int k)
-{
-  const int i = pairs.a[k], j = pairs.b[k];
+void PairCDEM::set_constants(int k) {
+  const int i = grain(pairs.a[k]), j = grain(pairs.b[k]);
   const double mi = atom->rmass[i], mj = atom->rmass[j];
   const double m = !integrate->is_free(j) ? mi : !integrate->is_free(i) ? mj : mi * mj / (mi + mj);
-  pairs.radius_sum[k] = atom->radius[i] + atom->radius[j];
-  pairs.radius_difference[k] = atom->radius[i] - atom->radius[j];
+  const double ra = disc_radius(pairs.a[k]), rb = disc_radius(pairs.b[k]);
+  pairs.radius_sum[k] = ra + rb;
+  pairs.radius_difference[k] = ra - rb;
   pairs.root_mass[k] = 2 * std::sqrt(m);
 }
 
-void PairCDEM::recall_history(int k)
-{
-  const int i = pairs.a[k], j = pairs.b[k];
+void PairCDEM::recall_history(int k) {
+  const int i = grain(pairs.a[k]), j = grain(pairs.b[k]), p = disc(pairs.a[k]), q = disc(pairs.b[k]);
   const FixCDEMHistory::Contact *const known =
-      i < atom->nlocal ? history->find_contact(i, atom->tag[j], 0, 0) : history->find_contact(j, atom->tag[i], 0, 0);
+      i < atom->nlocal ? history->find_contact(i, atom->tag[j], p, q) : history->find_contact(j, atom->tag[i], q, p);
   pairs.es[k] = known ? known->es : 0;
   pairs.en[k] = known ? known->en : 0;
 }
 
-void PairCDEM::sum_forces()
-{
+void PairCDEM::sum_disc_forces() {
   for (int i = 0; i < atom->nlocal; i++) {
     const cdem::DiscForce sum = sums(pairs, i);
     atom->f[i][0] += sum.fx;
@@ -250,126 +364,147 @@ void PairCDEM::sum_forces()
   }
 }
 
+void PairCDEM::sum_clump_forces() {
+  for (int i = 0; i < atom->nlocal; i++) {
+    cdem::DiscForce sum{0, 0, 0};
+    for (int p = first_row[i]; p < first_row[i + 1]; p++) {
+      const cdem::DiscForce d = sums(pairs, p);
+      const double ox = rows[p].x - atom->x[i][0], oy = rows[p].y - atom->x[i][1];
+      sum.fx += d.fx;
+      sum.fy += d.fy;
+      sum.torque += d.torque + (ox * d.fy - oy * d.fx);
+    }
+    atom->f[i][0] += sum.fx;
+    atom->f[i][1] += sum.fy;
+    atom->torque[i][2] += sum.torque;
+  }
+}
+
 // Energy and virial, with the branch vector from grain centre to grain centre.
-void PairCDEM::tally()
-{
+void PairCDEM::tally() {
   for (const auto &segment : pairs.segments)
     for (int k = segment.begin; k < segment.end; k++) {
-      if (!touches(k)) continue;
-      const int i = pairs.a[k], j = pairs.b[k];
+      if (overlap(k) <= 0)
+        continue;
+      const int i = grain(pairs.a[k]), j = grain(pairs.b[k]);
       const double *const xi = atom->x[i], *const xj = atom->x[j];
       const double energy = eflag_either ? spring_energy(k, segment.material) : 0;
-      ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, energy, 0, pairs.force[k].fx, pairs.force[k].fy, 0, xi[0] - xj[0],
-                   xi[1] - xj[1], 0);
+      ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, energy, 0, pairs.force[k].fx, pairs.force[k].fy, 0,
+                   xi[0] - xj[0], xi[1] - xj[1], 0);
     }
 }
 
-bool PairCDEM::touches(int k) const
-{
+double PairCDEM::overlap(int k) const {
   const auto &a = rows[pairs.a[k]], &b = rows[pairs.b[k]];
-  return std::hypot(a.x - b.x, a.y - b.y) < pairs.radius_sum[k];
+  return pairs.radius_sum[k] - std::hypot(a.x - b.x, a.y - b.y);
 }
 
 // A pair across a border is on two ranks (or twice on one, if periodic): the owner of disc a counts it.
-bool PairCDEM::counts(int k) const
-{
-  return pairs.a[k] < atom->nlocal;
-}
+bool PairCDEM::counts(int k) const { return grain(pairs.a[k]) < atom->nlocal; }
 
-double PairCDEM::spring_energy(int k, const cdem::Material &m) const
-{
-  const auto &a = rows[pairs.a[k]], &b = rows[pairs.b[k]];
-  const double overlap = pairs.radius_sum[k] - std::hypot(a.x - b.x, a.y - b.y);
-  const double en = law == cdem::Law::direct ? m.kn * overlap : pairs.en[k], es = pairs.es[k];
+double PairCDEM::spring_energy(int k, const cdem::Material &m) const {
+  const double en = law == cdem::Law::direct ? m.kn * overlap(k) : pairs.en[k], es = pairs.es[k];
   return 0.5 * en * en / m.kn + (m.ks > 0 ? 0.5 * es * es / m.ks : 0);
 }
 
-double PairCDEM::elastic_energy() const
-{
+double PairCDEM::elastic_energy() const {
   double sum = 0;
   for (const auto &segment : pairs.segments)
     for (int k = segment.begin; k < segment.end; k++)
-      if (counts(k) && touches(k)) sum += spring_energy(k, segment.material);
+      if (counts(k) && overlap(k) > 0)
+        sum += spring_energy(k, segment.material);
   return sum;
 }
 
-PairCDEM::Contact PairCDEM::contact(int k, const cdem::Material &m) const
-{
-  const int i = pairs.a[k], j = pairs.b[k];
-  const double dx = rows[i].x - rows[j].x, dy = rows[i].y - rows[j].y, distance = std::hypot(dx, dy);
-  const double nx = dx / distance, ny = dy / distance;
-  const double lever = 0.5 * (distance + pairs.radius_difference[k]), overlap = pairs.radius_sum[k] - distance;
-  const double en = law == cdem::Law::direct ? m.kn * overlap : pairs.en[k];
+PairCDEM::Contact PairCDEM::contact(int k, const cdem::Material &m) const {
+  const int p = pairs.a[k], q = pairs.b[k];
+  const double dx = rows[p].x - rows[q].x, dy = rows[p].y - rows[q].y, distance = std::hypot(dx, dy);
   const double fx = pairs.force[k].fx, fy = pairs.force[k].fy;
   constexpr double ROUND_OFF = 1e-10;
-  return {atom->tag[i],
-          atom->tag[j],
-          0,
-          0,
-          rows[i].x - lever * nx,
-          rows[i].y - lever * ny,
-          fx * nx + fy * ny,
-          fy * nx - fx * ny,
-          nx,
-          ny,
-          overlap,
-          std::fabs(pairs.es[k]) >= (1 - ROUND_OFF) * m.mu * en,
-          counts(k)};
+
+  Contact c;
+  c.tag_a = atom->tag[grain(p)];
+  c.tag_b = atom->tag[grain(q)];
+  c.disc_a = disc(p);
+  c.disc_b = disc(q);
+  c.nx = dx / distance;
+  c.ny = dy / distance;
+  const double lever = 0.5 * (distance + pairs.radius_difference[k]);
+  c.x = rows[p].x - lever * c.nx;
+  c.y = rows[p].y - lever * c.ny;
+  c.fn = fx * c.nx + fy * c.ny;
+  c.ft = fy * c.nx - fx * c.ny;
+  c.overlap = overlap(k);
+  const double en = law == cdem::Law::direct ? m.kn * c.overlap : pairs.en[k];
+  c.sliding = std::fabs(pairs.es[k]) >= (1 - ROUND_OFF) * m.mu * en;
+  c.mine = counts(k);
+  return c;
 }
 
-std::vector<PairCDEM::Contact> PairCDEM::contacts() const
-{
+std::vector<PairCDEM::Contact> PairCDEM::contacts() const {
   std::vector<Contact> all;
   for (const auto &segment : pairs.segments)
     for (int k = segment.begin; k < segment.end; k++)
-      if (touches(k)) all.push_back(contact(k, segment.material));
+      if (overlap(k) > 0)
+        all.push_back(contact(k, segment.material));
   return all;
 }
 
-double PairCDEM::single(int i, int j, int itype, int jtype, double, double, double, double &fforce)
-{
+std::vector<PairCDEM::DiscPlace> PairCDEM::discs() const {
+  std::vector<DiscPlace> all;
+  for (int p = 0; p < rows_of(atom->nlocal); p++)
+    all.push_back({grain(p), disc(p), rows[p].x, rows[p].y, disc_radius(p)});
+  return all;
+}
+
+double PairCDEM::single(int i, int j, int itype, int jtype, double, double, double, double &fforce) {
   double energy = 0;
   fforce = 0;
   std::fill_n(svector, single_extra, 0.0);
-  if (i >= atom->nlocal) std::swap(i, j);
-  sums.for_each(i, [&](int k) {
-    const int other = pairs.a[k] == i ? pairs.b[k] : pairs.a[k];
-    if (atom->tag[other] != atom->tag[j] || !touches(k)) return;
+  if (i >= atom->nlocal)
+    std::swap(i, j);
+  auto add = [&](int k) {
+    const int p = pairs.a[k], q = pairs.b[k], other = grain(p) == i ? grain(q) : grain(p);
+    if (atom->tag[other] != atom->tag[j] || overlap(k) <= 0)
+      return;
     const Contact c = contact(k, materials[itype][jtype]);
     energy += spring_energy(k, materials[itype][jtype]);
-    fforce += c.fn / std::hypot(rows[pairs.a[k]].x - rows[pairs.b[k]].x, rows[pairs.a[k]].y - rows[pairs.b[k]].y);
+    fforce += c.fn / std::hypot(rows[p].x - rows[q].x, rows[p].y - rows[q].y);
     svector[0] += c.fn;
     svector[1] += c.ft;
     svector[2] += pairs.es[k];
-  });
+  };
+  for (int p = rows_of(i); p < rows_of(i + 1); p++)
+    sums.for_each(p, add);
   return energy;
 }
 
-void PairCDEM::store_history()
-{
-  if (!history_in_list) return;
+void PairCDEM::store_history() {
+  if (!history_in_list)
+    return;
   std::vector<int> count(atom->nlocal, 0);
   std::vector<std::pair<int, FixCDEMHistory::Contact>> by_grain;
   for (int k = 0; k < pairs.size(); k++) {
-    if (pairs.es[k] == 0 && pairs.en[k] == 0) continue;
-    const int i = pairs.a[k], j = pairs.b[k];
-    for (const auto &[own, other] : {std::pair{i, j}, std::pair{j, i}}) {
-      if (own >= atom->nlocal) continue;
-      count[own]++;
-      by_grain.push_back({own, {atom->tag[other], 0, 0, pairs.es[k], pairs.en[k]}});
+    if (pairs.es[k] == 0 && pairs.en[k] == 0)
+      continue;
+    const int a = pairs.a[k], b = pairs.b[k];
+    for (const auto &[own, other] : {std::pair{a, b}, std::pair{b, a}}) {
+      const int i = grain(own);
+      if (i >= atom->nlocal)
+        continue;
+      count[i]++;
+      by_grain.push_back({i, {atom->tag[grain(other)], disc(own), disc(other), pairs.es[k], pairs.en[k]}});
     }
   }
   history->store(count, by_grain);
 }
 
-void PairCDEM::release_history()
-{
+void PairCDEM::release_history() {
   store_history();
   history_in_list = false;
 }
 
-void PairCDEM::write_restart(FILE *fp)
-{
+void PairCDEM::write_restart(FILE *fp) {
   write_restart_settings(fp);
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {
@@ -378,8 +513,7 @@ void PairCDEM::write_restart(FILE *fp)
     }
 }
 
-void PairCDEM::read_restart(FILE *fp)
-{
+void PairCDEM::read_restart(FILE *fp) {
   read_restart_settings(fp);
   allocate();
   for (int i = 1; i <= atom->ntypes; i++)
@@ -394,23 +528,22 @@ void PairCDEM::read_restart(FILE *fp)
     }
 }
 
-void PairCDEM::write_restart_settings(FILE *fp)
-{
+void PairCDEM::write_restart_settings(FILE *fp) {
   const int flags[2] = {int(law), int(limit_damping)};
   fwrite(flags, sizeof(int), 2, fp);
 }
 
-void PairCDEM::read_restart_settings(FILE *fp)
-{
+void PairCDEM::read_restart_settings(FILE *fp) {
   int flags[2];
-  if (comm->me == 0) utils::sfread(FLERR, flags, sizeof(int), 2, fp, nullptr, error);
+  if (comm->me == 0)
+    utils::sfread(FLERR, flags, sizeof(int), 2, fp, nullptr, error);
   MPI_Bcast(flags, 2, MPI_INT, 0, world);
   law = cdem::Law(flags[0]);
   limit_damping = flags[1];
 }
 
-double PairCDEM::memory_usage()
-{
+double PairCDEM::memory_usage() {
   return Pair::memory_usage() + double(rows.capacity() * sizeof(rows[0])) +
-      double(pairs.a.capacity() * (2 * sizeof(int) + 5 * sizeof(double) + sizeof(cdem::Forces<double>) + sizeof(int) * 2));
+         double(pairs.a.capacity() *
+                (2 * sizeof(int) + 5 * sizeof(double) + sizeof(cdem::Forces<double>) + sizeof(int) * 2));
 }

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A rigid grain made of discs: its discs about the centre of mass, and the area, inertia and surface of their union.
+//
+// Everything follows from the boundary of the union, which consists of arcs, by Green's theorem:
+//   area     = 1/2 integral of x dy - y dx
+//   centre_x = 1/2 integral of x^2 dy / area,   centre_y = -1/2 integral of y^2 dx / area
+//   polar second moment = 1/3 integral of x^3 dy - y^3 dx
+// Each integrand is a polynomial in cos and sin of the arc's angle, so the result is exact to round-off, and overlaps
+// count once.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace cdem {
+
+class GrainShape {
+public:
+  struct Member {
+    double x, y, r;
+  };
+
+  // The discs in any unit and position, or std::invalid_argument with what is wrong with them.
+  explicit GrainShape(const std::vector<Member> &given) : members(given) {
+    check();
+    shift_to_centre();
+    scale_to_unit_radius();
+    const Moments m = moments();
+    unit_area = m.area;
+    unit_inertia = m.polar / m.area;
+    if (members.size() == 1) { // the same without round-off
+      members = {{0, 0, 1}};
+      unit_area = M_PI;
+      unit_inertia = 0.5;
+    }
+    survey_surface();
+  }
+
+  static GrainShape single() { return GrainShape({{0, 0, 1}}); }
+
+  // Three equal discs, each touching the other two.
+  static GrainShape triple() {
+    const double height = std::sqrt(3.0);
+    return GrainShape({{-1, 0, 1}, {1, 0, 1}, {0, height, 1}});
+  }
+
+  // Relative to the centre of mass, in units of the circumscribed radius (the largest distance from centre to rim).
+  const std::vector<Member> &discs() const { return members; }
+  double area() const { return unit_area; }       // over radius^2
+  double inertia() const { return unit_inertia; } // over mass radius^2
+
+  // How many neighbours of its discs' own size fit around the grain (six around a disc), and the sum over them of the
+  // squared lever arms of a normal and of a tangential force, over radius^2. For the stability limit.
+  double neighbours() const { return surface.neighbours; }
+  double normal_levers() const { return surface.normal; }
+  double tangential_levers() const { return surface.tangential; }
+
+  // Largest distance of a disc centre from the centre of mass, over the circumscribed radius.
+  double reach() const {
+    double most = 0;
+    for (const Member &d : members)
+      most = std::max(most, std::hypot(d.x, d.y));
+    return most;
+  }
+
+private:
+  struct Arc {
+    double from, to;
+  };
+  struct Moments {
+    double area, x, y, polar;
+  };
+  struct Surface {
+    double neighbours, normal, tangential;
+  };
+
+  static constexpr double TOUCHING = 1e-6; // gap, over the smaller radius, at which two discs still count as joined
+
+  static std::string name(std::size_t k) { return "disc " + std::to_string(k + 1); }
+
+  void check() const {
+    if (members.empty())
+      throw std::invalid_argument("it has no discs");
+    for (std::size_t k = 0; k < members.size(); k++) {
+      const Member &d = members[k];
+      if (!std::isfinite(d.x) || !std::isfinite(d.y) || !std::isfinite(d.r))
+        throw std::invalid_argument(name(k) + " has a coordinate or radius that is not a finite number");
+      if (!(d.r > 0))
+        throw std::invalid_argument(name(k) + " has radius " + std::to_string(d.r) + ", must be positive");
+      for (std::size_t l = 0; l < members.size(); l++)
+        if (l != k && lies_inside(d, members[l]))
+          throw std::invalid_argument(name(k) + " is a duplicate of, or lies inside, " + name(l));
+    }
+    check_connected();
+  }
+
+  static bool lies_inside(const Member &inner, const Member &outer) {
+    return std::hypot(inner.x - outer.x, inner.y - outer.y) + inner.r <= outer.r * (1 + 1e-12);
+  }
+
+  static bool joined(const Member &a, const Member &b) {
+    return std::hypot(a.x - b.x, a.y - b.y) <= a.r + b.r + TOUCHING * std::min(a.r, b.r);
+  }
+
+  void check_connected() const {
+    std::vector<bool> reached(members.size(), false);
+    std::vector<std::size_t> open{0};
+    reached[0] = true;
+    while (!open.empty()) {
+      const std::size_t k = open.back();
+      open.pop_back();
+      for (std::size_t l = 0; l < members.size(); l++)
+        if (!reached[l] && joined(members[k], members[l])) {
+          reached[l] = true;
+          open.push_back(l);
+        }
+    }
+    const auto apart = std::find(reached.begin(), reached.end(), false);
+    if (apart != reached.end())
+      throw std::invalid_argument(name(apart - reached.begin()) + " is disconnected from disc 1");
+  }
+
+  // The arcs of disc k that no other disc covers, as angles; with all radii larger by `grow`.
+  std::vector<Arc> exposed(std::size_t k, double grow = 0) const {
+    const Member &d = members[k];
+    const double r = d.r + grow;
+    std::vector<Arc> covered;
+    for (std::size_t l = 0; l < members.size(); l++) {
+      if (l == k)
+        continue;
+      const double dx = members[l].x - d.x, dy = members[l].y - d.y, distance = std::hypot(dx, dy),
+                   other = members[l].r + grow;
+      if (distance >= r + other)
+        continue;
+      const double middle = std::atan2(dy, dx);
+      const double half = std::acos((distance * distance + r * r - other * other) / (2 * distance * r));
+      add_within_turn(covered, middle - half, middle + half);
+    }
+    std::sort(covered.begin(), covered.end(), [](const Arc &a, const Arc &b) { return a.from < b.from; });
+    std::vector<Arc> free;
+    double at = -M_PI;
+    for (const Arc &c : covered) {
+      if (c.from > at)
+        free.push_back({at, c.from});
+      at = std::max(at, c.to);
+    }
+    if (at < M_PI)
+      free.push_back({at, M_PI});
+    if (free.size() > 1 && free.front().from == -M_PI && free.back().to == M_PI) { // one arc, cut at +-pi
+      free.back().to = free.front().to + 2 * M_PI;
+      free.erase(free.begin());
+    }
+    return free;
+  }
+
+  // An arc, cut at +-pi where it passes that.
+  static void add_within_turn(std::vector<Arc> &arcs, double from, double to) {
+    if (from < -M_PI) {
+      arcs.push_back({from + 2 * M_PI, M_PI});
+      from = -M_PI;
+    }
+    if (to > M_PI) {
+      arcs.push_back({-M_PI, to - 2 * M_PI});
+      to = M_PI;
+    }
+    arcs.push_back({from, to});
+  }
+
+  // Integrals of cos^n over an arc, n = 1 ... 4; those of sin^n are the same a quarter turn back.
+  struct Powers {
+    double c1, c2, c3, c4;
+
+    Powers(double from, double to) {
+      auto difference = [=](auto f) { return f(to) - f(from); };
+      c1 = difference([](double t) { return std::sin(t); });
+      c2 = difference([](double t) { return t / 2 + std::sin(2 * t) / 4; });
+      c3 = difference([](double t) { return std::sin(t) - std::pow(std::sin(t), 3) / 3; });
+      c4 = difference([](double t) { return 3 * t / 8 + std::sin(2 * t) / 4 + std::sin(4 * t) / 32; });
+    }
+  };
+
+  static Moments arc_moments(const Member &d, const Arc &arc) {
+    const Powers c(arc.from, arc.to), s(arc.from - M_PI / 2, arc.to - M_PI / 2);
+    const double r = d.r, r2 = r * r, r3 = r2 * r, r4 = r2 * r2;
+    auto first = [=](double at, const Powers &p) { return at * r * p.c1 + r2 * p.c2; };
+    auto second = [=](double at, const Powers &p) { return at * at * r * p.c1 + 2 * at * r2 * p.c2 + r3 * p.c3; };
+    auto third = [=](double at, const Powers &p) {
+      return at * at * at * r * p.c1 + 3 * at * at * r2 * p.c2 + 3 * at * r3 * p.c3 + r4 * p.c4;
+    };
+    return {(first(d.x, c) + first(d.y, s)) / 2, second(d.x, c) / 2, second(d.y, s) / 2,
+            (third(d.x, c) + third(d.y, s)) / 3};
+  }
+
+  Moments moments() const {
+    Moments sum{0, 0, 0, 0};
+    for (std::size_t k = 0; k < members.size(); k++)
+      for (const Arc &arc : exposed(k)) {
+        const Moments m = arc_moments(members[k], arc);
+        sum.area += m.area;
+        sum.x += m.x;
+        sum.y += m.y;
+        sum.polar += m.polar;
+      }
+    return sum;
+  }
+
+  void shift_to_centre() {
+    const Moments m = moments();
+    for (Member &d : members) {
+      d.x -= m.x / m.area;
+      d.y -= m.y / m.area;
+    }
+  }
+
+  void scale_to_unit_radius() {
+    double radius = 0;
+    for (const Member &d : members)
+      radius = std::max(radius, std::hypot(d.x, d.y) + d.r);
+    for (Member &d : members)
+      d = {d.x / radius, d.y / radius, d.r / radius};
+  }
+
+  // The centres of neighbours of a disc's own size lie where no other disc is in their way, at least 60 degrees apart:
+  // six on a full turn, one more than there are gaps on an arc. Lever arms: |o x n| of the normal force, o.n + r of the
+  // tangential one.
+  void survey_surface() {
+    surface = {0, 0, 0};
+    for (std::size_t k = 0; k < members.size(); k++) {
+      const Member &d = members[k];
+      const double offset = std::hypot(d.x, d.y), towards = std::atan2(d.y, d.x);
+      for (const Arc &arc : exposed(k, d.r)) {
+        const double margin = arc.to - arc.from < 2 * M_PI ? M_PI / 6 : 0;
+        const Powers c(arc.from - margin - towards, arc.to + margin - towards);
+        const double angle = arc.to - arc.from + 2 * margin;
+        surface.neighbours += 3 / M_PI * angle;
+        surface.normal += 3 / M_PI * offset * offset * (angle - c.c2);
+        surface.tangential += 3 / M_PI * (d.r * d.r * angle + 2 * d.r * offset * c.c1 + offset * offset * c.c2);
+      }
+    }
+  }
+
+  std::vector<Member> members;
+  double unit_area, unit_inertia;
+  Surface surface;
+};
+
+} // namespace cdem

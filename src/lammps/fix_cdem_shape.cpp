@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fix_cdem_shape.h"
+
+#include "fix_cdem_integrate.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "modify.h"
+#include "utils.h"
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+using namespace LAMMPS_NS;
+using Member = cdem::GrainShape::Member;
+
+FixCDEMShape *FixCDEMShape::find(LAMMPS *lmp) {
+  for (int i = 0; i < lmp->modify->nfix; i++)
+    if (auto *fix = dynamic_cast<FixCDEMShape *>(lmp->modify->fix[i]))
+      return fix;
+  return nullptr;
+}
+
+const cdem::GrainShape &FixCDEMShape::shape(LAMMPS *lmp, int type) {
+  static const cdem::GrainShape disc = cdem::GrainShape::single();
+  const FixCDEMShape *const fix = find(lmp);
+  return fix ? *fix->shapes[type] : disc;
+}
+
+FixCDEMShape::FixCDEMShape(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), shapes(atom->ntypes + 1) {
+  if (find(lmp))
+    error->all(FLERR, "Fix cdem/shape {}: there is one already, {}", id, find(lmp)->id);
+  int iarg = 3;
+  while (iarg < narg) {
+    const std::string key = arg[iarg++];
+    if (iarg == narg)
+      error->all(FLERR, "Fix cdem/shape: {} needs a value", key);
+    if (key == "type") {
+      iarg = read_template(narg, arg, iarg);
+    } else if (key == "density") {
+      density = utils::numeric(FLERR, arg[iarg++], false, lmp);
+      if (!(density > 0))
+        error->all(FLERR, "Fix cdem/shape: density {} must be positive", arg[iarg - 1]);
+    } else if (key == "orient") {
+      seed = utils::inumeric(FLERR, arg[iarg++], false, lmp);
+      if (seed <= 0)
+        error->all(FLERR, "Fix cdem/shape: orient {}: the seed must be positive", seed);
+    } else {
+      error->all(FLERR, "Fix cdem/shape: unknown keyword {}; allowed: type, density, orient", key);
+    }
+  }
+  for (int type = 1; type <= atom->ntypes; type++)
+    if (!shapes[type])
+      error->all(FLERR, "Fix cdem/shape: atom type {} has no template", type);
+  restart_global = 1;
+  if (density > 0)
+    set_mass();
+}
+
+// Reads "T TEMPLATE" from arg[iarg] on and returns where the next keyword is.
+int FixCDEMShape::read_template(int narg, char **arg, int iarg) {
+  const int type = utils::inumeric(FLERR, arg[iarg++], false, lmp);
+  if (type < 1 || type > atom->ntypes)
+    error->all(FLERR, "Fix cdem/shape: type {} must be between 1 and {}", type, atom->ntypes);
+  if (shapes[type])
+    error->all(FLERR, "Fix cdem/shape: type {} has two templates", type);
+
+  const std::string word = iarg < narg ? arg[iarg++] : "nothing";
+  std::string source = word;
+  std::vector<Member> discs;
+  if (word == "single" || word == "triple") {
+    shapes[type] = word == "single" ? cdem::GrainShape::single() : cdem::GrainShape::triple();
+    return iarg;
+  } else if (word == "discs") {
+    iarg = read_discs(narg, arg, iarg, discs);
+  } else if (word == "file") {
+    if (iarg == narg)
+      error->all(FLERR, "Fix cdem/shape: type {}: file needs a name", type);
+    source += std::string(" ") + arg[iarg];
+    discs = read_file(arg[iarg++]);
+  } else {
+    error->all(FLERR, "Fix cdem/shape: type {}: unknown template {}; allowed: single, triple, discs, file", type, word);
+  }
+  try {
+    shapes[type].emplace(discs);
+  } catch (const std::invalid_argument &bad) {
+    error->all(FLERR, "Fix cdem/shape: type {}, {}: {}", type, source, bad.what());
+  }
+  return iarg;
+}
+
+int FixCDEMShape::read_discs(int narg, char **arg, int iarg, std::vector<Member> &discs) const {
+  const int n = iarg < narg ? utils::inumeric(FLERR, arg[iarg++], false, lmp) : 0;
+  if (n < 1 || iarg + 3 * n > narg)
+    error->all(FLERR, "Fix cdem/shape: discs {}: must be a positive number of discs, each with x y r; {} values follow",
+               n, narg - iarg);
+  for (int k = 0; k < n; k++, iarg += 3)
+    discs.push_back({utils::numeric(FLERR, arg[iarg], false, lmp), utils::numeric(FLERR, arg[iarg + 1], false, lmp),
+                     utils::numeric(FLERR, arg[iarg + 2], false, lmp)});
+  return iarg;
+}
+
+std::vector<Member> FixCDEMShape::read_file(const std::string &name) const {
+  std::ifstream file(name);
+  if (!file)
+    error->all(FLERR, "Fix cdem/shape: can't read the template file {}: {}", name, utils::getsyserror());
+  std::vector<Member> discs;
+  std::string line;
+  for (int number = 1; std::getline(file, line); number++) {
+    std::istringstream words(line.substr(0, line.find('#')));
+    Member d;
+    std::string rest;
+    if (!(words >> std::ws) || words.eof())
+      continue;
+    if (!(words >> d.x >> d.y >> d.r) || words >> rest)
+      error->all(FLERR, "Fix cdem/shape: {} line {} is not 'x y r': {}", name, number, line.substr(0, 60));
+    discs.push_back(d);
+  }
+  return discs;
+}
+
+int FixCDEMShape::setmask() { return 0; }
+
+void FixCDEMShape::init() {
+  if (seed > 0 && !oriented)
+    orient();
+  oriented = 1;
+}
+
+void FixCDEMShape::set_mass() const {
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit)
+      atom->rmass[i] = density * shapes[atom->type[i]]->area() * atom->radius[i] * atom->radius[i];
+}
+
+void FixCDEMShape::orient() const {
+  FixCDEMIntegrate *const integrate = FixCDEMIntegrate::find(lmp);
+  if (!integrate)
+    error->all(FLERR, "Fix cdem/shape: orient needs a fix cdem/integrate, which holds the angles");
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit))
+      continue;
+    std::seed_seq key{seed, int(atom->tag[i])};
+    std::mt19937_64 random(key);
+    integrate->state[i][FixCDEMIntegrate::ANGLE] = 2 * M_PI * std::ldexp(double(random() >> 11), -53);
+  }
+}
+
+void FixCDEMShape::write_restart(FILE *fp) {
+  if (comm->me != 0)
+    return;
+  const int size = sizeof(oriented);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(&oriented, sizeof(oriented), 1, fp);
+}
+
+void FixCDEMShape::restart(char *buf) { memcpy(&oriented, buf, sizeof(oriented)); }

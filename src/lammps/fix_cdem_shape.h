@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// fix ID group cdem/shape type T TEMPLATE [type T TEMPLATE ...] [density RHO] [orient SEED]
+//
+// Grains of several rigid discs (CDEM). One atom is one grain; its radius is the circumscribed one, to which the
+// template of its type is scaled, so one template serves a distribution of sizes.
+//
+//   TEMPLATE  single               a disc
+//             triple               three equal discs, each touching the other two
+//             discs N x y r ...    N discs in any unit, about any origin; they may overlap and must be connected
+//             file NAME            the same from a file: a line "x y r" a disc, # starts a comment
+//   density   mass per area (kg/m^2): sets the mass of the group's grains, from the area of the union of the discs
+//   orient    turns the group's grains to random angles, once; the angle depends on SEED and the atom id alone
+//
+// Every atom type needs a template. Mass centre, area and inertia are those of the union of the discs, see
+// core/grain_shape.h. One fix of this style may exist. Without it, all atoms are single discs.
+#pragma once
+
+#include "core/grain_shape.h"
+
+#include "fix.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class FixCDEMShape : public Fix {
+public:
+  // The fix of this style, or null.
+  static FixCDEMShape *find(LAMMPS *);
+  // The shape of an atom type: a single disc where there is no such fix.
+  static const cdem::GrainShape &shape(LAMMPS *, int type);
+
+  FixCDEMShape(LAMMPS *, int, char **);
+
+  int setmask() override;
+  void init() override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+
+private:
+  int read_template(int narg, char **arg, int iarg);
+  int read_discs(int narg, char **arg, int iarg, std::vector<cdem::GrainShape::Member> &) const;
+  std::vector<cdem::GrainShape::Member> read_file(const std::string &name) const;
+  void set_mass() const;
+  void orient() const;
+
+  std::vector<std::optional<cdem::GrainShape>> shapes; // by type
+  double density = 0;                                  // 0: leave the masses alone
+  int seed = 0;                                        // 0: leave the angles alone
+  int oriented = 0;
+};
+
+} // namespace LAMMPS_NS
