@@ -10,10 +10,12 @@
 #include "lammps.h"
 #include "modify.h"
 #include "utils.h"
+#include "variable.h"
 
 #include <cstdio>
 #include <cstdlib>
 #include <dlfcn.h>
+#include <filesystem>
 #include <mpi.h>
 #include <stdexcept>
 #include <string>
@@ -37,12 +39,24 @@ void LAMMPS::post_create() {
   library_post_create(this);
 }
 
+// The folder of the input file as variable `decks`, unless -var gives it: a deck includes its parts from there, and
+// LAMMPS itself looks for them in the current folder only.
+static void set_decks(LAMMPS *lmp, int argc, char **argv) {
+  for (int i = 1; i + 1 < argc; i++) {
+    const std::string word = argv[i];
+    if (word != "-in" && word != "-i") continue;
+    const std::string folder = std::filesystem::path(argv[i + 1]).parent_path().string();
+    lmp->input->variable->set("decks index \"" + (folder.empty() ? "." : folder) + "\"");
+  }
+}
+
 int main(int argc, char **argv) {
   setenv("OMP_NUM_THREADS", "1", 0); // LAMMPS's own default; said here, it needs no warning at every start
   MPI_Init(&argc, &argv);
   try {
     auto *lmp = new LAMMPS(argc, argv, MPI_COMM_WORLD);
     if (lmp->comm->me == 0) utils::logmesg(lmp, "Shearbox " + Shearbox::version() + "\n");
+    set_decks(lmp, argc, argv);
     lmp->input->file();
     delete lmp;
   } catch (const LAMMPSAbortException &e) { // one rank failed, the others may wait for it
