@@ -25,17 +25,23 @@ using namespace LAMMPS_NS;
 // LAMMPS calls this after it has made its tables of styles: at the start, and again at every `clear`. The program's
 // definition comes before the library's, so we are called, add our styles, and hand on to the library's.
 void LAMMPS::post_create() {
-  if (const std::string problem = Shearbox::mismatch(this); !problem.empty()) throw std::runtime_error(problem);
+  if (const std::string problem = Shearbox::mismatch(this); !problem.empty())
+    throw std::runtime_error(problem);
   for (const Shearbox::Style &s : Shearbox::styles()) {
-    if (s.pair) (*force->pair_map)[s.name] = s.pair;
-    if (s.fix) (*modify->fix_map)[s.name] = s.fix;
-    if (s.compute) (*modify->compute_map)[s.name] = s.compute;
-    if (s.command) (*input->command_map)[s.name] = s.command;
+    if (s.pair)
+      (*force->pair_map)[s.name] = s.pair;
+    if (s.fix)
+      (*modify->fix_map)[s.name] = s.fix;
+    if (s.compute)
+      (*modify->compute_map)[s.name] = s.compute;
+    if (s.command)
+      (*input->command_map)[s.name] = s.command;
   }
   using PostCreate = void (*)(LAMMPS *); // how a non-virtual member function is called (Itanium C++ ABI)
   static const auto library_post_create =
       reinterpret_cast<PostCreate>(dlsym(RTLD_NEXT, "_ZN9LAMMPS_NS6LAMMPS11post_createEv"));
-  if (!library_post_create) throw std::runtime_error("LAMMPS::post_create is not in the LAMMPS library");
+  if (!library_post_create)
+    throw std::runtime_error("LAMMPS::post_create is not in the LAMMPS library");
   library_post_create(this);
 }
 
@@ -44,7 +50,8 @@ void LAMMPS::post_create() {
 static void set_decks(LAMMPS *lmp, int argc, char **argv) {
   for (int i = 1; i + 1 < argc; i++) {
     const std::string word = argv[i];
-    if (word != "-in" && word != "-i") continue;
+    if (word != "-in" && word != "-i")
+      continue;
     const std::string folder = std::filesystem::path(argv[i + 1]).parent_path().string();
     lmp->input->variable->set("decks index \"" + (folder.empty() ? "." : folder) + "\"");
   }
@@ -55,7 +62,8 @@ int main(int argc, char **argv) {
   MPI_Init(&argc, &argv);
   try {
     auto *lmp = new LAMMPS(argc, argv, MPI_COMM_WORLD);
-    if (lmp->comm->me == 0) utils::logmesg(lmp, "Shearbox " + Shearbox::version() + "\n");
+    if (lmp->comm->me == 0)
+      utils::logmesg(lmp, "Shearbox " + Shearbox::version() + "\n");
     set_decks(lmp, argc, argv);
     lmp->input->file();
     delete lmp;

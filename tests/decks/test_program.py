@@ -12,7 +12,7 @@ from engine import ENVIRONMENT, PROGRAM
 
 STYLES = {
     "pair": {"cdem"},
-    "fix": {"cdem/history", "cdem/integrate", "cdem/lid", "cdem/move", "cdem/trm"},
+    "fix": {"cdem/history", "cdem/integrate", "cdem/lid", "cdem/move", "cdem/shape", "cdem/trm"},
     "compute": {"cdem/contacts", "cdem/discs", "cdem/energy", "cdem/trm"},
     "command": {"cdem/create"},
 }
