@@ -16,10 +16,6 @@
 
 using namespace LAMMPS_NS;
 
-namespace {
-constexpr double PI = 3.14159265358979323846;
-}
-
 CDEMCreate::CDEMCreate(LAMMPS *lmp) : Command(lmp) {}
 
 // The words of the command, read one after the other; each reader names what it misses.
