@@ -58,7 +58,6 @@ static void set_decks(LAMMPS *lmp, int argc, char **argv) {
 }
 
 int main(int argc, char **argv) {
-  setenv("OMP_NUM_THREADS", "1", 0); // LAMMPS's own default; said here, it needs no warning at every start
   MPI_Init(&argc, &argv);
   try {
     auto *lmp = new LAMMPS(argc, argv, MPI_COMM_WORLD);
