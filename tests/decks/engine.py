@@ -158,7 +158,7 @@ def write_data(file: Path, discs: Sequence[Disc], box: tuple[float, float, float
     lines += [
         f"{xlo:.17g} {xhi:.17g} xlo xhi",
         f"{ylo:.17g} {yhi:.17g} ylo yhi",
-        "-0.005 0.005 zlo zhi",
+        "-0.5 0.5 zlo zhi",
         "",
         "Atoms # sphere",
         "",

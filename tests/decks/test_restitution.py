@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -47,11 +48,12 @@ include ${decks}/end.in
 
 
 def collide(
-    directory: Path, h: float, steps_per_contact: int, kinds: Iterable[str] = KINDS, phases: int = 16, **options: object
+    directory: Path, h: float, steps_per_contact: int, kinds: Iterable[str] = KINDS, phases: int = 16, **options: Any
 ) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
     """Restitution and duration of all collisions, by kind."""
     dt = math.pi / W0 / steps_per_contact
-    discs, gaps = [], []
+    discs: list[Disc] = []
+    gaps: list[float] = []
     for kind in kinds:
         small, large = KINDS[kind]
         for phase in range(phases):
@@ -68,7 +70,7 @@ def collide(
     ).end  # fmt: skip
     x, v, r = end["x"].reshape(-1, 2), end["vx"].reshape(-1, 2), end["radius"].reshape(-1, 2)
     gap, speed = x[:, 1] - x[:, 0] - r.sum(axis=1), v[:, 1] - v[:, 0]
-    assert (gap > 0).all(), "a contact has not ended"
+    assert np.all(gap > 0), "a contact has not ended"
     duration = steps * dt - gap / speed - np.array(gaps) / SPEED  # from free flight before and after
     by_kind = [dict(zip(kinds, values.reshape(-1, phases), strict=True)) for values in (speed / SPEED, duration)]
     return by_kind[0], by_kind[1]
