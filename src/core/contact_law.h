@@ -16,7 +16,7 @@ enum class Law { direct, incremental };
 
 // What the law needs of one disc. The springs follow the displacement of the step, so they take the velocity of the
 // half step, with which the positions moved; the dashpots take the velocity at the time of the force.
-template <class T> struct Disc {
+template <class T> struct alignas(8 * sizeof(T)) Disc {
   T x, y;
   T vx_half, vy_half, omega_half;
   T vx, vy, omega;
@@ -25,13 +25,13 @@ template <class T> struct Disc {
 // Constants of one pair of materials.
 struct Material {
   double kn = 0, ks = 0; // N/m
-  double hn = 0, hs = 0; // damping ratios of the pair
+  double dn = 0, ds = 0; // dashpots over 2 sqrt(m): h sqrt(k)
   double mu = 0;         // tan(phi)
-
-  // dashpots over 2 sqrt(m)
-  double dn() const { return hn * std::sqrt(kn); }
-  double ds() const { return hs * std::sqrt(ks); }
 };
+
+inline Material material(double kn, double ks, double hn, double hs, double mu) {
+  return {kn, ks, hn * std::sqrt(kn), hs * std::sqrt(ks), mu};
+}
 
 // Constants of one pair of discs. The lever arm to the contact point is r_a - overlap/2 = (distance + r_a - r_b)/2.
 template <class T> struct Pair {
@@ -43,7 +43,7 @@ template <class T> struct Pair {
 template <class T> struct History { T es, en; };
 
 // Force on the first disc, and the torques on both, about the disc centres.
-template <class T> struct Forces { T fx, fy, torque_a, torque_b; };
+template <class T> struct alignas(4 * sizeof(T)) Forces { T fx, fy, torque_a, torque_b; };
 
 // Relative motion of the contact point of disc a against b, along n (from b to a) and t (n turned by +90 degrees).
 template <class T> struct Approach { T n, t; };
@@ -75,8 +75,9 @@ template <class T> inline Edges<T> edges(T overlap, T un_half, T un, double dt) 
 // The force of a pair, and its history brought forward by the displacement of one step. `dt_history` is dt, or 0 to
 // evaluate the force of the present state without changing what the contact remembers.
 template <Law law, bool limit_damping, class T>
-inline Forces<T> contact_force(const Disc<T> &a, const Disc<T> &b, const Pair<T> &pair, const Material &m, double dt,
-                               double dt_history, History<T> &history) {
+[[gnu::always_inline]] inline Forces<T> contact_force(const Disc<T> &a, const Disc<T> &b, const Pair<T> &pair,
+                                                      const Material &m, double dt, double dt_history,
+                                                      History<T> &history) {
   const T dx = a.x - b.x, dy = a.y - b.y;
   const T distance = square_root(dx * dx + dy * dy), inverse = T(1) / distance;
   const T overlap = pair.radius_sum - distance;
@@ -105,11 +106,11 @@ inline Forces<T> contact_force(const Disc<T> &a, const Disc<T> &b, const Pair<T>
   history.es = select(touch, es, T(0));
 
   const T dashpot = pair.root_mass * edge.dashpot;
-  T fn = en - T(m.dn()) * dashpot * now.n;
+  T fn = en - T(m.dn) * dashpot * now.n;
   if constexpr (limit_damping)
     fn = select(fn > T(0), fn, T(0));
   fn = select(touch, fn, T(0));
-  const T ft = select(touch, select(slides, es, es - T(m.ds()) * dashpot * now.t), T(0));
+  const T ft = select(touch, select(slides, es, es - T(m.ds) * dashpot * now.t), T(0));
   return {fn * nx - ft * ny, fn * ny + ft * nx, T(-0.5) * ft * (distance + pair.radius_difference),
           T(-0.5) * ft * (distance - pair.radius_difference)};
 }

@@ -4,57 +4,60 @@
 // one place and the order of every sum is fixed by the ids of the grains, not by where they are in memory.
 #pragma once
 
+#include "column.h"
 #include "contact_law.h"
+#include "force_kernel.h"
 
 #include <vector>
 
 namespace cdem {
 
 struct DiscPairs {
-  // Consecutive pairs of the same two materials.
+  // Pairs of the same two materials: begin ... end-1. Segments begin at multiples of the kernel's lanes; the entries
+  // between two segments are of no meaning.
   struct Segment {
     Material material;
     int begin, end;
   };
 
   std::vector<Segment> segments;
-  std::vector<int> a, b; // rows of the two discs; a belongs to the grain of the lower id
-  std::vector<double> radius_sum, radius_difference, root_mass;
-  std::vector<double> es, en;
-  std::vector<Forces<double>> force;
+  Column<int> a, b; // rows of the two discs; a belongs to the grain of the lower id
+  Column<double> radius_sum, radius_difference, root_mass;
+  Column<double> es, en;
+  Column<Forces<double>> force;
 
-  int size() const { return int(a.size()); }
-
-  void resize(int n) {
-    a.resize(n);
-    b.resize(n);
-    for (auto *column : {&radius_sum, &radius_difference, &root_mass, &es, &en})
-      column->resize(n);
-    force.resize(n);
-  }
-};
-
-template <Law law, bool limit_damping>
-void compute_forces(const Disc<double> *discs, DiscPairs &p, double dt, double dt_history) {
-  for (const auto &segment : p.segments)
-    for (int k = segment.begin; k < segment.end; k++) {
-      const Pair<double> pair{p.radius_sum[k], p.radius_difference[k], p.root_mass[k]};
-      History<double> history{p.es[k], p.en[k]};
-      p.force[k] = contact_force<law, limit_damping, double>(discs[p.a[k]], discs[p.b[k]], pair, segment.material, dt,
-                                                             dt_history, history);
-      p.es[k] = history.es;
-      if constexpr (law == Law::incremental)
-        p.en[k] = history.en;
+  // Makes room for segments of these sizes, all entries zero.
+  void lay_out(const std::vector<Material> &materials, const std::vector<int> &sizes) {
+    segments.clear();
+    int next = 0;
+    for (std::size_t m = 0; m < sizes.size(); m++) {
+      if (sizes[m] == 0)
+        continue;
+      segments.push_back({materials[m], next, next + sizes[m]});
+      next = (next + sizes[m] + PairColumns::LANES - 1) / PairColumns::LANES * PairColumns::LANES;
     }
-}
+    a.reset(next);
+    b.reset(next);
+    for (auto *column : {&radius_sum, &radius_difference, &root_mass, &es, &en})
+      column->reset(next);
+    force.reset(next);
+  }
 
-inline void compute_forces(Law law, bool limit_damping, const Disc<double> *discs, DiscPairs &pairs, double dt,
-                           double dt_history) {
-  const auto compute =
-      law == Law::direct
-          ? (limit_damping ? compute_forces<Law::direct, true> : compute_forces<Law::direct, false>)
-          : (limit_damping ? compute_forces<Law::incremental, true> : compute_forces<Law::incremental, false>);
-  compute(discs, pairs, dt, dt_history);
-}
+  // Calls visit(k, material) for every pair.
+  template <class Visit> void for_each(Visit visit) const {
+    for (const Segment &segment : segments)
+      for (int k = segment.begin; k < segment.end; k++)
+        visit(k, segment.material);
+  }
+
+  void compute_forces(ForceKernel kernel, const Disc<double> *discs, double dt, double dt_history) {
+    const PairColumns columns{a.data(),         b.data(),  radius_sum.data(), radius_difference.data(),
+                              root_mass.data(), es.data(), en.data(),         force.data()};
+    for (const Segment &s : segments)
+      kernel(discs, columns, s.material, s.begin, s.end, dt, dt_history);
+  }
+
+  double bytes() const { return double(a.size()) * (2 * sizeof(int) + 5 * sizeof(double) + sizeof(Forces<double>)); }
+};
 
 } // namespace cdem

@@ -17,8 +17,8 @@ class ForceSums {
 public:
   // Discs 0 ... n-1 are summed. before(k, l) orders two pairs of one disc by the disc on the other side.
   template <class Before> void build(const DiscPairs &pairs, int n, Before before) {
-    as_a.build(pairs.a, n);
-    as_b.build(pairs.b, n);
+    as_a.build(pairs, pairs.a, n);
+    as_b.build(pairs, pairs.b, n);
     for (int d = 0; d < n; d++) {
       std::sort(as_a.begin(d), as_a.end(d), [&](int k, int l) { return before(pairs.b[k], pairs.b[l]); });
       std::sort(as_b.begin(d), as_b.end(d), [&](int k, int l) { return before(pairs.a[k], pairs.a[l]); });
@@ -31,20 +31,13 @@ public:
     std::for_each(as_a.begin(disc), as_a.end(disc), visit);
   }
 
+  // First the forces of the pairs in which it is disc b, then those in which it is disc a.
   DiscForce operator()(const DiscPairs &pairs, int disc) const {
-    DiscForce sum{0, 0, 0};
-    for (auto k = as_b.begin(disc); k != as_b.end(disc); ++k) {
-      sum.fx -= pairs.force[*k].fx;
-      sum.fy -= pairs.force[*k].fy;
-      sum.torque += pairs.force[*k].torque_b;
-    }
-    for (auto k = as_a.begin(disc); k != as_a.end(disc); ++k) {
-      sum.fx += pairs.force[*k].fx;
-      sum.fy += pairs.force[*k].fy;
-      sum.torque += pairs.force[*k].torque_a;
-    }
-    return sum;
+    const Forces<double> b = as_b.sum(pairs, disc), a = as_a.sum(pairs, disc);
+    return {a.fx - b.fx, a.fy - b.fy, a.torque_a + b.torque_b};
   }
+
+  double bytes() const { return as_a.bytes() + as_b.bytes(); }
 
 private:
   // The pairs of each disc in one of the two roles, one disc after the other.
@@ -56,19 +49,35 @@ private:
     const int *begin(int d) const { return pairs.data() + first[d]; }
     const int *end(int d) const { return pairs.data() + first[d + 1]; }
 
-    void build(const std::vector<int> &disc_of_pair, int n) {
+    // A row of forces is summed as one vector; the two sums that a role has no use for come along.
+    Forces<double> sum(const DiscPairs &p, int d) const {
+      using Row = double __attribute__((vector_size(sizeof(Forces<double>)), may_alias));
+      const auto *const rows = reinterpret_cast<const Row *>(p.force.data());
+      Row total{};
+      for (const int *k = begin(d); k != end(d); ++k)
+        total += rows[*k];
+      return {total[0], total[1], total[2], total[3]};
+    }
+
+    void build(const DiscPairs &p, const Column<int> &disc_of_pair, int n) {
       first.assign(n + 1, 0);
-      for (int d : disc_of_pair)
-        if (d < n)
-          first[d + 1]++;
+      p.for_each([&](int k, const Material &) {
+        if (disc_of_pair[k] < n)
+          first[disc_of_pair[k] + 1]++;
+      });
       for (int d = 0; d < n; d++)
         first[d + 1] += first[d];
       pairs.resize(first[n]);
-      std::vector<int> next(first.begin(), first.end() - 1);
-      for (int k = 0; k < int(disc_of_pair.size()); k++)
+      next.assign(first.begin(), first.end() - 1);
+      p.for_each([&](int k, const Material &) {
         if (disc_of_pair[k] < n)
           pairs[next[disc_of_pair[k]]++] = k;
+      });
     }
+
+    double bytes() const { return double(first.capacity() + pairs.capacity() + next.capacity()) * sizeof(int); }
+
+    std::vector<int> next; // of build()
   };
 
   Role as_a, as_b;

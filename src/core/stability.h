@@ -30,7 +30,7 @@ inline double largest_step(double stiffness, double damping, double m) {
 // Limit (s) for grains of mass m (kg) that have contacts of this material with their like all around.
 inline double step_limit(const Material &material, const GrainShape &shape, double m) {
   const double root_mass = 2 * std::sqrt(m / 2);
-  const double cn = material.dn() * root_mass, cs = material.ds() * root_mass;
+  const double cn = material.dn * root_mass, cs = material.ds * root_mass;
   const double n = shape.neighbours(), ln = 2 * shape.normal_levers(), lt = 2 * shape.tangential_levers();
   const double moving = largest_step(n * (material.kn + 0.5 * material.ks), n * (cn + 0.5 * cs), m);
   const double turning = largest_step(ln * material.kn + lt * material.ks, ln * cn + lt * cs, m * shape.inertia());

@@ -152,10 +152,15 @@ void FixCDEMIntegrate::take_acceleration(int i) {
   state[i][ALPHA] = per_mass * atom->torque[i][2] / (inertia[atom->type[i]] * atom->radius[i] * atom->radius[i]);
 }
 
+// Other fixes may still add to the forces in their setup: what is taken here is for output, the first step takes it
+// anew.
 void FixCDEMIntegrate::setup(int) {
+  to_start.clear();
   for (int i = 0; i < atom->nlocal; i++) {
-    if (is_free(i) && !knows_acceleration(i))
+    if (is_free(i) && !knows_acceleration(i)) {
       take_acceleration(i);
+      to_start.push_back(i);
+    }
     if (std::isnan(state[i][AX]))
       state[i][AX] = 0;
   }
@@ -163,6 +168,10 @@ void FixCDEMIntegrate::setup(int) {
 }
 
 void FixCDEMIntegrate::initial_integrate(int) {
+  for (int i : to_start)
+    take_acceleration(i);
+  to_start.clear();
+
   const double dt = update->dt, half = 0.5 * dt;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!is_free(i))

@@ -52,7 +52,7 @@ public:
   int maxsize_restart() override;
 
   bool is_free(int i) const;
-  // Whether the stored acceleration belongs to the present state; else setup() takes it from the forces.
+  // Whether the stored acceleration belongs to the present state; else the first step takes it from the forces.
   bool knows_acceleration(int i) const;
   // Share of the half step by which the dashpots' velocity is carried forward: second order in time, and within the
   // stability limit of the scheme without it.
@@ -71,6 +71,7 @@ private:
   double max_step;
   double limit = 0;
   std::vector<double> inertia; // over mass radius^2, by type
+  std::vector<int> to_start;   // grains whose acceleration was not known at setup
   bigint valid_step = -1;      // the step at whose end `state` was written
 };
 

@@ -105,7 +105,7 @@ void PairCDEM::coeff(int narg, char **arg) {
   if (value[4] >= 90)
     error->all(FLERR, "Pair coeff cdem: phi = {} degrees must be below 90", value[4]);
 
-  const cdem::Material m{value[0], value[1], value[2], value[3], std::tan(value[4] * DEGREE)};
+  const cdem::Material m = cdem::material(value[0], value[1], value[2], value[3], std::tan(value[4] * DEGREE));
   int count = 0;
   for (int i = ilo; i <= ihi; i++)
     for (int j = std::max(jlo, i); j <= jhi; j++) {
@@ -140,6 +140,7 @@ void PairCDEM::init_style() {
   integrate = FixCDEMIntegrate::find(lmp);
   check_setting();
   read_shapes();
+  kernel = cdem::force_kernel(law, limit_damping);
   Shearbox::request_half_size_list(lmp, this, instance_me);
 
   if (!history)
@@ -184,7 +185,7 @@ void PairCDEM::compute(int eflag, int vflag) {
     build_list();
   }
   history_in_list = true;
-  cdem::compute_forces(law, limit_damping, rows.data(), pairs, update->dt, update->setupflag ? 0 : update->dt);
+  pairs.compute_forces(kernel, rows.data(), update->dt, update->setupflag ? 0 : update->dt);
   clumps ? sum_clump_forces() : sum_disc_forces();
   if (evflag)
     tally();
@@ -265,10 +266,10 @@ bool PairCDEM::turned_out_of_list() const {
 void PairCDEM::build_list() {
   find_candidates();
   sort_by_material();
-  for (int k = 0; k < pairs.size(); k++) {
+  pairs.for_each([this](int k, const cdem::Material &) {
     set_constants(k);
     recall_history(k);
-  }
+  });
   sums.build(pairs, rows_of(atom->nlocal), [this](int p, int q) { return row_before(p, q); });
   if (!clumps)
     return;
@@ -318,18 +319,18 @@ void PairCDEM::add_candidate(int p, int q) {
 
 void PairCDEM::sort_by_material() {
   const int types = atom->ntypes + 1;
-  std::vector<int> next(types * types + 1, 0);
-  for (const auto &c : candidates)
-    next[c.material + 1]++;
-  for (int m = 0; m < types * types; m++)
-    next[m + 1] += next[m];
+  std::vector<cdem::Material> material(types * types);
+  std::vector<int> sizes(types * types, 0), next(types * types, 0);
+  for (const auto &c : candidates) {
+    material[c.material] = materials[c.material / types][c.material % types];
+    sizes[c.material]++;
+  }
+  pairs.lay_out(material, sizes);
 
-  pairs.segments.clear();
+  auto segment = pairs.segments.begin();
   for (int m = 0; m < types * types; m++)
-    if (next[m] < next[m + 1])
-      pairs.segments.push_back({materials[m / types][m % types], next[m], next[m + 1]});
-
-  pairs.resize(int(candidates.size()));
+    if (sizes[m])
+      next[m] = (segment++)->begin;
   for (const auto &c : candidates) {
     const int k = next[c.material]++;
     pairs.a[k] = c.a;
@@ -382,16 +383,15 @@ void PairCDEM::sum_clump_forces() {
 
 // Energy and virial, with the branch vector from grain centre to grain centre.
 void PairCDEM::tally() {
-  for (const auto &segment : pairs.segments)
-    for (int k = segment.begin; k < segment.end; k++) {
-      if (overlap(k) <= 0)
-        continue;
-      const int i = grain(pairs.a[k]), j = grain(pairs.b[k]);
-      const double *const xi = atom->x[i], *const xj = atom->x[j];
-      const double energy = eflag_either ? spring_energy(k, segment.material) : 0;
-      ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, energy, 0, pairs.force[k].fx, pairs.force[k].fy, 0,
-                   xi[0] - xj[0], xi[1] - xj[1], 0);
-    }
+  pairs.for_each([this](int k, const cdem::Material &m) {
+    if (overlap(k) <= 0)
+      return;
+    const int i = grain(pairs.a[k]), j = grain(pairs.b[k]);
+    const double *const xi = atom->x[i], *const xj = atom->x[j];
+    const double energy = eflag_either ? spring_energy(k, m) : 0;
+    ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, energy, 0, pairs.force[k].fx, pairs.force[k].fy, 0,
+                 xi[0] - xj[0], xi[1] - xj[1], 0);
+  });
 }
 
 double PairCDEM::overlap(int k) const {
@@ -409,10 +409,10 @@ double PairCDEM::spring_energy(int k, const cdem::Material &m) const {
 
 double PairCDEM::elastic_energy() const {
   double sum = 0;
-  for (const auto &segment : pairs.segments)
-    for (int k = segment.begin; k < segment.end; k++)
-      if (counts(k) && overlap(k) > 0)
-        sum += spring_energy(k, segment.material);
+  pairs.for_each([&](int k, const cdem::Material &m) {
+    if (counts(k) && overlap(k) > 0)
+      sum += spring_energy(k, m);
+  });
   return sum;
 }
 
@@ -443,10 +443,10 @@ PairCDEM::Contact PairCDEM::contact(int k, const cdem::Material &m) const {
 
 std::vector<PairCDEM::Contact> PairCDEM::contacts() const {
   std::vector<Contact> all;
-  for (const auto &segment : pairs.segments)
-    for (int k = segment.begin; k < segment.end; k++)
-      if (overlap(k) > 0)
-        all.push_back(contact(k, segment.material));
+  pairs.for_each([&](int k, const cdem::Material &m) {
+    if (overlap(k) > 0)
+      all.push_back(contact(k, m));
+  });
   return all;
 }
 
@@ -484,9 +484,9 @@ void PairCDEM::store_history() {
     return;
   std::vector<int> count(atom->nlocal, 0);
   std::vector<std::pair<int, FixCDEMHistory::Contact>> by_grain;
-  for (int k = 0; k < pairs.size(); k++) {
+  pairs.for_each([&](int k, const cdem::Material &) {
     if (pairs.es[k] == 0 && pairs.en[k] == 0)
-      continue;
+      return;
     const int a = pairs.a[k], b = pairs.b[k];
     for (const auto &[own, other] : {std::pair{a, b}, std::pair{b, a}}) {
       const int i = grain(own);
@@ -495,7 +495,7 @@ void PairCDEM::store_history() {
       count[i]++;
       by_grain.push_back({i, {atom->tag[grain(other)], disc(own), disc(other), pairs.es[k], pairs.en[k]}});
     }
-  }
+  });
   history->store(count, by_grain);
 }
 
@@ -543,7 +543,5 @@ void PairCDEM::read_restart_settings(FILE *fp) {
 }
 
 double PairCDEM::memory_usage() {
-  return Pair::memory_usage() + double(rows.capacity() * sizeof(rows[0])) +
-         double(pairs.a.capacity() *
-                (2 * sizeof(int) + 5 * sizeof(double) + sizeof(cdem::Forces<double>) + sizeof(int) * 2));
+  return Pair::memory_usage() + double(rows.capacity() * sizeof(rows[0])) + pairs.bytes() + sums.bytes();
 }

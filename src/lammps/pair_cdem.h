@@ -125,9 +125,10 @@ private:
   };
   std::vector<Place> built_at; // of the grains when the list was built, empty unless clumps
 
-  std::vector<cdem::Disc<double>> rows;
+  cdem::Column<cdem::Disc<double>> rows;
   std::vector<Candidate> candidates;
   cdem::DiscPairs pairs;
+  cdem::ForceKernel kernel = nullptr;
   cdem::ForceSums sums;
   bool history_in_list = false;
 };
