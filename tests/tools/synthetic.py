@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 STEPS_PER_ROW = 5000
+GRAINS = 350
 
 
 def softening(s: np.ndarray, peak: float, at: float, residual: float) -> np.ndarray:
@@ -87,10 +88,10 @@ def walls(width: float, half_height: float, diameter: float, shift: float) -> np
     return np.array([(x + shift, y) for x, y in lower] + upper)
 
 
-def write_frames(folder: Path, steps: list[int], travel: float, width: float = 0.1, half_height: float = 0.05) -> int:
-    """grains.dump, discs.dump and contacts.dump of a hexagonal packing that shears homogeneously; grains are returned."""
-    radius = 0.003
-    start = packing(width, 2 * half_height, radius)
+def write_frames(folder: Path, steps: list[int], travel: float, width: float = 0.1, half_height: float = 0.05) -> None:
+    """grains.dump, discs.dump and contacts.dump of a hexagonal packing that shears homogeneously."""
+    radius = 0.00277
+    start = packing(width, 2 * half_height, radius)[:GRAINS]
     texts: dict[str, list[str]] = {"grains": [], "discs": [], "contacts": []}
     for number, step in enumerate(steps):
         shear = travel * 1e-3 * number / max(1, len(steps) - 1)
@@ -126,23 +127,21 @@ def write_frames(folder: Path, steps: list[int], travel: float, width: float = 0
         )
     for name, frames in texts.items():
         (folder / f"{name}.dump").write_text("".join(frames), encoding="utf-8")
-    return len(start)
+    assert len(start) == GRAINS
 
 
 def _contact_rows(centres: np.ndarray, radius: float) -> list[str]:
+    apart = centres[:, None] - centres[None]
+    distance = np.hypot(apart[..., 0], apart[..., 1])
     rows = []
-    for i, a in enumerate(centres):
-        for j in range(i):
-            b = centres[j]
-            distance = float(np.hypot(*(a - b)))
-            if distance < 2.02 * radius:
-                n = (a - b) / distance
-                force = 100 * (1 + n[0] * n[1]) * (1 + 0.5 * np.sin(300 * a[0]))
-                x, y = (a + b) / 2
-                rows.append(
-                    f"{len(rows) + 1} {i + 1} {j + 1} 1 1 {x:.8g} {y:.8g} {force:.6g} 0 {force * n[0]:.6g} "
-                    f"{force * n[1]:.6g} {n[0]:.6g} {n[1]:.6g} 1e-6 0"
-                )
+    for i, j in np.argwhere(np.tril(distance < 2.02 * radius, -1)):
+        n = apart[i, j] / distance[i, j]
+        force = 100 * (1 + n[0] * n[1]) * (1 + 0.5 * np.sin(300 * centres[i, 0]))
+        x, y = (centres[i] + centres[j]) / 2
+        rows.append(
+            f"{len(rows) + 1} {i + 1} {j + 1} 1 1 {x:.8g} {y:.8g} {force:.6g} 0 {force * n[0]:.6g} "
+            f"{force * n[1]:.6g} {n[0]:.6g} {n[1]:.6g} 1e-6 0"
+        )
     return rows
 
 

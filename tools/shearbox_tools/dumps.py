@@ -16,6 +16,7 @@ DISCS = ("id", "disc", "x", "y", "radius", "angle", "type")
 CONTACTS = ("id1", "id2", "disc1", "disc2", "x", "y", "fn", "ft", "fx", "fy", "nx", "ny", "overlap", "sliding")
 
 _FRAME = re.compile(rb"^ITEM: TIMESTEP\r?\n", re.MULTILINE)
+_LAST_OF_HEAD = ("ITEM: ATOMS", "ITEM: ENTRIES")
 _LONGEST_HEAD = 4096  # bytes
 _ENDLESS = 1 << 62
 
@@ -75,7 +76,7 @@ class Dump:
             raise ShearboxError(f"{self.path}: {error.strerror}") from error
 
     def _index(self, data: mmap.mmap) -> dict[int, tuple[int, int]]:
-        starts = [match.start() for match in _FRAME.finditer(data)]
+        starts = _frame_starts(data)
         if not starts or starts[0] != 0:
             first = data[: data.find(b"\n") + 1].decode(errors="replace")
             raise ShearboxError(f"{self.path}, line 1: 'ITEM: TIMESTEP' is expected, not {short(first)}")
@@ -93,7 +94,7 @@ class Dump:
 
     def _head(self, lines: list[str], offset: int) -> _Head:
         """Step, number of rows and names of the columns; a head that is cut off asks for more rows than there are."""
-        last = next((i for i, line in enumerate(lines) if line.startswith(("ITEM: ATOMS", "ITEM: ENTRIES"))), None)
+        last = next((i for i, line in enumerate(lines) if line.startswith(_LAST_OF_HEAD)), None)
         if last is None:
             return _Head(-1, _ENDLESS, [], 0)
         return _Head(
@@ -136,3 +137,20 @@ class Dump:
         """Number of the line that begins at that byte."""
         with self.path.open("rb") as stream:
             return stream.read(offset).count(b"\n") + 1
+
+
+def last_whole_byte(path: Path) -> int:
+    """Length of the file without a last frame that is not whole."""
+    data = path.read_bytes()
+    starts = _frame_starts(data)
+    if not starts:
+        return 0
+    lines = data[starts[-1] :].decode(errors="replace").splitlines(keepends=True)
+    head = next((i for i, line in enumerate(lines) if line.startswith(_LAST_OF_HEAD)), None)
+    if head is None or not data.endswith(b"\n"):
+        return starts[-1]
+    return len(data) if len(lines) - head - 1 == int(lines[3]) else starts[-1]
+
+
+def _frame_starts(data: bytes | mmap.mmap) -> list[int]:
+    return [match.start() for match in _FRAME.finditer(data)]

@@ -4,12 +4,12 @@
 The paper simplifies its shear stress curves by "a polynomial" and takes the peak. The rule used here:
 
 1. Rows of a DEM curve are not independent (a force chain lives for many rows). The integrated correlation length of
-   the residuals of the highest degree is measured, and the curve is averaged over blocks of twice that length, so that
-   the blocks may be taken as independent.
+   the residuals of the highest degree is measured, and the curve is averaged over blocks of twice that length, so
+   that the blocks may be taken as independent.
 2. On the blocks, degrees 3 to 8 are fitted by least squares and compared by BIC = n ln(RSS/n) + k ln n, k = degree + 2
-   (Schwarz 1978). Against a curve of known peak with correlated noise, BIC had a smaller error at the peak than AICc and
-   leave-one-out, which chose degrees that follow the noise; a bound of 8 keeps the greatest bend as short as about
-   a tenth of the travel and the polynomial steady.
+   (Schwarz 1978). Against a curve of known peak with correlated noise, BIC had a smaller error at the peak than AICc
+   and leave-one-out, which chose degrees that follow the noise; a bound of 8 keeps the greatest bend as short as
+   about a tenth of the travel and the polynomial steady.
 3. Its uncertainty is a residual bootstrap over the blocks in which the degree is chosen anew each time, so that the
    choice is part of the uncertainty.
 """

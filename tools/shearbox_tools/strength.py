@@ -39,7 +39,7 @@ def fit_line(sigma: np.ndarray, tau: np.ndarray, tau_error: np.ndarray) -> Line:
     (A^T W A)^-1 is the covariance propagated from the errors of the peaks. One specimen differs from the next by more
     than its peak's error, and that shows as chi^2 / (n - 2) > 1: the covariance is multiplied by
     max(1, chi^2 / (n - 2)), never shrunk (Birge ratio), and the half-widths are Student's t with n - 2 degrees of
-    freedom times the standard errors. Two points leave no degree of freedom: then the propagated errors alone, times 1.96.
+    freedom times the standard errors. Two points leave no degree of freedom: then the propagated errors times 1.96.
     The error of phi is that of the slope times d(atan s)/ds = 1 / (1 + s^2).
     """
     design = np.column_stack([np.ones_like(sigma), sigma])

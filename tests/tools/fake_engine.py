@@ -1,0 +1,91 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Stands in for lmp_cdem: takes its command line and writes what the decks write, with known curves.
+
+FAKE_SECONDS: how long a shear phase takes; FAKE_FAIL: folder name of a stress (or 'packed') that fails half way;
+FAKE_DIARY: file that gets a line when an engine starts and ends.
+"""
+
+import os
+import sys
+import time
+from pathlib import Path
+
+import synthetic
+
+ROWS = 100
+ROWS_PER_RESTART = 10
+
+
+def main() -> int:
+    words = sys.argv[1:]
+    variables = {words[i + 1]: words[i + 2] for i, word in enumerate(words) if word == "-var"}
+    phase = Path(words[words.index("-in") + 1]).stem
+    log = Path(words[words.index("-log") + 1])
+    log.write_text("LAMMPS (29 Sep 2021)\nShearbox 0.1.0 (fake)\n", encoding="utf-8")
+    diary("start", phase)
+    {"pack": pack, "consolidate": consolidate, "shear": shear}[phase](variables, log)
+    diary("end", phase)
+    with log.open("a", encoding="utf-8") as stream:
+        stream.write("Loop time of 2 on 1 procs for 1000 steps with 350 atoms\n")
+        stream.write("Pair    | 1.5        | 1.5        | 1.5        |   0.0 | 75.00\n")
+        stream.write("Other   |            | 0.5        |            |       | 25.00\n")
+        stream.write("Total wall time: 0:00:01\n")
+    return 0
+
+
+def pack(_: dict[str, str], log: Path) -> None:
+    fail_if_asked(log)
+    bed("packed")
+
+
+def consolidate(variables: dict[str, str], _: Path) -> None:
+    assert Path(variables["packed"]).read_text(encoding="utf-8") == "restart", "the packing is not there"
+    bed("consolidated", sigma_kPa=float(variables["sigma"]))
+
+
+def shear(variables: dict[str, str], log: Path) -> None:
+    travel, sigma = float(variables["travel"]), float(variables["sigma"])
+    columns = synthetic.curves(sigma, travel, ROWS)
+    table = Path("shear.dat")
+    restarts = sorted(Path().glob("shear.restart.?"), key=lambda p: p.stat().st_mtime)
+    begin = int(restarts[0].read_text(encoding="utf-8")) if restarts else 0
+    if not begin:
+        synthetic.write_shear(table, columns, slice(0, 0))
+        synthetic.write_frames(Path(), [0, ROWS * synthetic.STEPS_PER_ROW], travel)
+    for row in range(begin, ROWS):
+        if row == ROWS // 2:
+            fail_if_asked(log)
+        synthetic.write_shear(table, columns, slice(row, row + 1), "a")
+        if (row + 1) % ROWS_PER_RESTART == 0:
+            name = "ab"[(row + 1) // ROWS_PER_RESTART % 2]
+            Path(f"shear.restart.{name}").write_text(str(row + 1), encoding="utf-8")
+        time.sleep(float(os.environ.get("FAKE_SECONDS", "0")) / ROWS)
+    for path in restarts:
+        path.unlink(missing_ok=True)
+    Path("shear.done").write_text("done\n", encoding="utf-8")
+
+
+def bed(name: str, **more: float) -> None:
+    synthetic.write_row(
+        Path(f"{name}.csv"), grains=synthetic.GRAINS, height_m=0.0987, solid_fraction=0.835,
+        solid_fraction_bottom=0.834, solid_fraction_top=0.836, unbalanced=8e-5, kinetic_J=3e-12, steps=123000, **more,
+    )  # fmt: skip
+    Path(f"{name}.restart").write_text("restart", encoding="utf-8")
+
+
+def fail_if_asked(log: Path) -> None:
+    if os.environ.get("FAKE_FAIL") == Path.cwd().name:
+        with log.open("a", encoding="utf-8") as stream:
+            stream.write("ERROR: Lost atoms: original 350 current 349 (src/thermo.cpp:439)\nLast command: run 100\n")
+        sys.exit(1)
+
+
+def diary(event: str, phase: str) -> None:
+    if "FAKE_DIARY" in os.environ:
+        with open(os.environ["FAKE_DIARY"], "a", encoding="utf-8") as stream:
+            stream.write(f"{event} {phase} {Path.cwd().name}\n")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

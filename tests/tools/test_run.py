@@ -1,0 +1,278 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""`shearbox run` from the command line, with an engine that only pretends: order, interruption, failures, refusals."""
+
+import fcntl
+import json
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+
+TESTS = Path(__file__).resolve().parent
+SHEARBOX = TESTS.parents[1] / "tools" / "shearbox"
+MODEL = "TypeA_10x5_4-8_1-circle_350"
+
+
+def command(folder: Path, *options: str, model: str = MODEL) -> list[str]:
+    return [str(SHEARBOX), "run", model, "--out", str(folder), "--engine", str(TESTS / "fake_engine.py"), *options]
+
+
+def shearbox(folder: Path, *options: str, model: str = MODEL, **environment: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        command(folder, *options, model=model),
+        env={**os.environ, **environment},
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+
+
+def summary(folder: Path) -> dict:
+    return json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+
+
+def rows(folder: Path, sigma: int) -> int:
+    return len((folder / str(sigma) / "curve.csv").read_text(encoding="utf-8").splitlines()) - 1
+
+
+@pytest.fixture(name="folder")
+def _folder(tmp_path: Path) -> Path:
+    return tmp_path / "results"
+
+
+def test_all_stresses_from_nothing_to_the_report(folder, tmp_path):
+    diary = tmp_path / "diary"
+    done = shearbox(folder, FAKE_DIARY=str(diary), FAKE_SECONDS="1")
+    assert done.returncode == 0, done.stderr
+    assert "400 kPa: done in" in done.stdout
+    assert (folder / "report.html").stat().st_size > 100_000
+    result = summary(folder)
+    assert result["complete"]
+    assert result["phi_deg"] == pytest.approx(26.6, abs=1.5)
+    assert result["criteria"]["proportional"]["holds"]
+    assert [stress["sigma_kPa"] for stress in result["stresses"]] == [100, 200, 300, 400]
+    assert all(stress["grains_lost"] == 0 for stress in result["stresses"])
+    assert rows(folder, 300) == 100
+
+    events = diary.read_text(encoding="utf-8").split("\n")
+    assert events[:2] == ["start pack packed", "end pack packed"], "packed once, before all else"
+    at_once = most = 0
+    for event in events:
+        at_once += event.startswith("start") - event.startswith("end")
+        most = max(most, at_once)
+    assert most == 2
+
+    before = diary.stat().st_size
+    assert shearbox(folder, FAKE_DIARY=str(diary)).returncode == 0
+    assert diary.stat().st_size == before, "nothing is left to do"
+
+
+def test_another_stress_may_follow(folder):
+    assert shearbox(folder, "--stress", "100").returncode == 0
+    assert summary(folder)["phi_deg"] is None
+    assert shearbox(folder, "--stress", "250").returncode == 0
+    assert [stress["sigma_kPa"] for stress in summary(folder)["stresses"]] == [100, 250]
+    assert summary(folder)["phi_deg"] is not None
+
+
+@pytest.mark.parametrize("sign, status", [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)])
+def test_stopped_and_taken_up_again(folder, sign, status):
+    options = ("--stress", "100", "200", "300")
+    engine = subprocess.Popen(
+        command(folder, *options), env={**os.environ, "FAKE_SECONDS": "20"}, stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    wait_for(lambda: all((folder / s / "shear.restart.b").exists() for s in ("100", "200")))
+    engine.send_signal(sign)
+    _, message = engine.communicate(timeout=30)
+    assert engine.returncode == status
+    assert "To go on:" in message and str(folder) in message
+    with (folder / ".lock").open("r+") as lock:  # the engines have ended: nobody holds the lock
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    assert (folder / "timings.json").exists()
+
+    with (folder / "100" / "shear.dat").open("a", encoding="utf-8") as stream:
+        stream.write("55000 0.4")  # what an engine leaves behind when it is stopped in the middle of a line
+    done = shearbox(folder, *options)
+    assert done.returncode == 0, done.stderr
+    assert "pack: started" not in done.stdout
+    assert summary(folder)["complete"]
+    assert rows(folder, 100) == rows(folder, 300) == 100
+
+
+def wait_for(condition, seconds: float = 30) -> None:
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "waited in vain"
+        time.sleep(0.05)
+
+
+def test_a_failed_stress_does_not_cost_the_others(folder):
+    failed = shearbox(folder, FAKE_FAIL="200")
+    assert failed.returncode == 1
+    assert "shear 200 kPa failed: ERROR: Lost atoms: original 350 current 349" in failed.stderr
+    assert f"log: {folder / '200' / 'shear.log'}" in failed.stderr
+    assert not summary(folder)["complete"]
+    assert "200 kPa has reached 3.96 mm only" in summary(folder)["notes"]
+    assert [stress["complete"] for stress in summary(folder)["stresses"]] == [True, False, True, True]
+
+    assert shearbox(folder).returncode == 0
+    assert summary(folder)["complete"]
+    assert (folder / "200" / "shear.log.1").exists(), "the log of the failure is kept"
+
+
+def test_a_failed_packing_ends_the_run(folder):
+    failed = shearbox(folder, FAKE_FAIL="packed")
+    assert failed.returncode == 1
+    assert "pack failed: ERROR: Lost atoms" in failed.stderr
+    assert not (folder / "100").exists()
+
+
+def test_an_engine_that_is_killed_is_named(folder, tmp_path):
+    engine = tmp_path / "engine"
+    engine.write_text("#!/bin/sh\nkill -9 $$\n", encoding="utf-8")
+    engine.chmod(0o755)
+    failed = shearbox(folder, "--engine", str(engine))
+    assert failed.returncode == 1
+    assert "ended by signal 9" in failed.stderr
+
+
+def test_an_engine_that_writes_nothing_is_found_out(folder):
+    failed = shearbox(folder, "--engine", "/bin/true")
+    assert failed.returncode == 1
+    assert "ended without writing packed.csv" in failed.stderr
+
+
+def test_two_runs_in_one_folder(folder):
+    first = subprocess.Popen(
+        command(folder, "--stress", "100"), env={**os.environ, "FAKE_SECONDS": "8"}, stdout=subprocess.DEVNULL
+    )
+    wait_for(lambda: (folder / "100" / "shear.dat").exists())
+    second = shearbox(folder, "--stress", "100")
+    first.send_signal(signal.SIGINT)
+    first.wait(30)
+    assert second.returncode == 1
+    assert "is in use by another run" in second.stderr
+
+
+REFUSED = [
+    (["--stress", "0"], "--stress 0: a stress above 0 kPa"),
+    (["--stress", "-100"], "--stress -100: a stress above 0 kPa"),
+    (["--stress", "nan"], "--stress nan: a stress above 0 kPa"),
+    (["--stress", "100000"], "100000 Pa would be 100"),
+    (["--stress", "0.1"], "0.1 MPa would be 100"),
+    (["--stress", "100", "100"], "named twice"),
+    (["--stress", "many"], "invalid float value: 'many'"),
+    (["--speed", "0"], "--speed 0: 0.001 to 1000 mm/s"),
+    (["--speed", "-2"], "--speed -2: 0.001 to 1000 mm/s"),
+    (["--speed", "0.0002"], "0.0002 m/s would be 0.2"),
+    (["--travel", "0"], "--travel 0: 0.1 to 25 mm"),
+    (["--travel", "80"], "--travel 80: 0.1 to 25 mm"),
+    (["--travel", "0.008"], "0.008 m would be 8"),
+    (["--seed", "0"], "--seed 0: a whole number"),
+    (["--seed", "1.5"], "invalid int value: '1.5'"),
+    (["--law", "mixed"], "invalid choice: 'mixed'"),
+    (["--dt", "soon"], "--dt soon: 'auto' or a time step"),
+    (["--dt", "1"], "--dt 1: 'auto' or 1e-10 to 1e-4 s"),
+    (["--dt", "-1e-6"], "expected one argument"),
+    (["--jobs", "0"], "--jobs 0: 1 to 256"),
+    (["--ranks", "-1"], "--ranks -1: 1 to 256"),
+    (["--engine", "/nowhere/lmp"], "the engine /nowhere/lmp is not there"),
+    (["--out", "/proc/nothing"], "--out /proc/nothing:"),
+    (["--unknown"], "unrecognized arguments: --unknown"),
+]
+
+
+@pytest.mark.parametrize("options, message", REFUSED, ids=[" ".join(options) for options, _ in REFUSED])
+def test_bad_options_are_refused_before_anything_starts(folder, options, message):
+    refused = shearbox(folder, *options)
+    assert refused.returncode == 2, refused.stdout
+    assert message in refused.stderr
+    assert "Traceback" not in refused.stderr
+    assert not folder.exists()
+
+
+def test_all_problems_are_named_at_once(folder):
+    refused = shearbox(folder, "--stress", "-1", "--speed", "0", "--seed", "-3")
+    assert all(option in refused.stderr for option in ("--stress", "--speed", "--seed"))
+
+
+@pytest.mark.parametrize(
+    "name, suggestion",
+    [
+        ("TypeA_10x5_4-8_1-circle_35", "TypeA_10x5_4-8_1-circle_350"),
+        ("typeb", "TypeB_15x5_4-8_1-circle_550"),
+        ("sand", "'shearbox models' lists them"),
+    ],
+)
+def test_an_unknown_model_gets_suggestions(folder, name, suggestion):
+    refused = shearbox(folder, model=name)
+    assert refused.returncode == 2
+    assert f"unknown model '{name}'" in refused.stderr
+    assert suggestion in refused.stderr
+
+
+@pytest.fixture(name="used", scope="module")
+def _used(tmp_path_factory) -> Path:
+    folder = tmp_path_factory.mktemp("used") / "results"
+    assert shearbox(folder, "--stress", "100").returncode == 0
+    return folder
+
+
+@pytest.mark.parametrize(
+    "options, model, difference",
+    [
+        (["--speed", "3"], MODEL, "speed_mm_s: 2.0 there, 3.0 asked for"),
+        (["--travel", "7"], MODEL, "travel_mm: 8.0 there, 7.0 asked for"),
+        (["--seed", "2"], MODEL, "seed: 1 there, 2 asked for"),
+        (["--law", "incremental"], MODEL, "law: direct there, incremental asked for"),
+        (["--dt", "1e-7"], MODEL, "dt: auto there, 1e-7 asked for"),
+        ([], "TypeB_15x5_4-8_1-circle_550", f"model: {MODEL} there, TypeB_15x5_4-8_1-circle_550 asked for"),
+    ],
+)
+def test_a_folder_of_another_request_is_refused(used, options, model, difference):
+    before = {path: path.stat().st_mtime_ns for path in used.rglob("*")}
+    refused = shearbox(used, "--stress", "100", *options, model=model)
+    assert refused.returncode == 2
+    assert f"{used} holds another run" in refused.stderr
+    assert difference in refused.stderr
+    assert refused.stderr.count(" asked for") == (1 if options else 3), "only what differs"
+    assert {path: path.stat().st_mtime_ns for path in used.rglob("*")} == before
+
+
+def test_a_folder_of_something_else_is_refused(folder):
+    folder.mkdir()
+    (folder / "letter.txt").write_text("dear", encoding="utf-8")
+    refused = shearbox(folder)
+    assert refused.returncode == 2
+    assert "holds something else than a run" in refused.stderr
+    assert [path.name for path in folder.iterdir()] == ["letter.txt"]
+
+
+def test_a_file_is_not_a_folder(folder):
+    folder.write_text("", encoding="utf-8")
+    refused = shearbox(folder)
+    assert refused.returncode == 2
+    assert "this is a file" in refused.stderr
+
+
+@pytest.mark.parametrize(
+    "text, message", [("{", "run.json, line 1"), ("[]", "not the record of a run"), ("", "line 1")]
+)
+def test_a_damaged_record_is_named(folder, text, message):
+    folder.mkdir()
+    (folder / "run.json").write_text(text, encoding="utf-8")
+    refused = shearbox(folder)
+    assert refused.returncode == 1
+    assert message in refused.stderr
+    assert (folder / "run.json").read_text(encoding="utf-8") == text
+
+
+def test_help_of_every_command():
+    for words in ([], ["models"], ["run"], ["report"]):
+        done = subprocess.run([str(SHEARBOX), *words, "--help"], capture_output=True, text=True, timeout=30)
+        assert done.returncode == 0
+        assert done.stdout.startswith("usage: shearbox")

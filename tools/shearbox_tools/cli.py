@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The command line of `shearbox`."""
+
+import argparse
+import importlib.util
+import os
+import shlex
+import signal
+import sys
+from pathlib import Path
+from types import FrameType
+
+from . import __version__
+from .errors import InputError, ShearboxError
+
+DEPENDENCIES = {"numpy": "python3-numpy", "matplotlib": "python3-matplotlib", "jinja2": "python3-jinja2",
+                "rich": "python3-rich"}  # fmt: skip
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run one command; the exit status is 0, 1 (failed), 2 (bad input) or 128 + signal (stopped)."""
+    options = make_parser().parse_args(arguments)
+    signals = [signal.SIGTERM, signal.SIGHUP]
+    for sign in signals:
+        signal.signal(sign, _interrupt)
+    try:
+        _check_dependencies()
+        options.command(options)
+        return 0
+    except ShearboxError as error:
+        print(f"shearbox: {error}", file=sys.stderr)
+        return error.code
+    except KeyboardInterrupt as interruption:
+        print(f"shearbox: {_how_to_go_on(options)}", file=sys.stderr)
+        return 128 + (interruption.args[0] if interruption.args else signal.SIGINT)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the reader left: nobody to tell
+        return 1
+
+
+def make_parser() -> argparse.ArgumentParser:
+    """All commands and options, with units."""
+    parser = argparse.ArgumentParser(
+        prog="shearbox", description="The 2D direct shear test of sand by the distinct element method."
+    )
+    parser.add_argument("--version", action="version", version=f"shearbox {__version__}")
+    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+    _add_models(commands)
+    _add_run(commands)
+    _add_report(commands)
+    return parser
+
+
+def _add_models(commands) -> None:
+    models = commands.add_parser("models", help="list the models", description="The models of the paper's Table 1.")
+    models.set_defaults(command=_models)
+
+
+def _add_run(commands) -> None:
+    run = commands.add_parser(
+        "run",
+        help="run a model and report on it",
+        description="Pack a model once, consolidate and shear it at each stress, and write the report. "
+        "Run again with the same DIR, it goes on where it stopped; further stresses may be added later.",
+        formatter_class=argparse.ArgumentDefaultsHelpFormatter,
+    )
+    run.add_argument("model", metavar="MODEL", help="name of a model, as 'shearbox models' lists them")
+    run.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder of the results")
+    run.add_argument("--stress", metavar="KPA", type=float, nargs="+", default=[100, 200, 300, 400],
+                     help="normal stresses, kPa")  # fmt: skip
+    run.add_argument("--speed", metavar="V", type=float, default=2.0, help="shear speed, mm/s")
+    run.add_argument("--travel", metavar="S", type=float, default=8.0, help="shear displacement at the end, mm")
+    run.add_argument("--seed", metavar="N", type=int, default=1, help="seed of the packing")
+    run.add_argument("--law", choices=["direct", "incremental"], default="direct", help="contact law")
+    run.add_argument("--dt", metavar="DT", default="auto", help="time step, s; auto: from the stability limit")
+    run.add_argument("--jobs", metavar="N", type=int, default=2, help="stresses run at the same time")
+    run.add_argument("--ranks", metavar="N", type=int, default=1, help="MPI ranks of each of them")
+    run.add_argument("--engine", metavar="FILE", type=Path, default=None, help="engine (default: build/lmp_cdem)")
+    run.set_defaults(command=_run)
+
+
+def _add_report(commands) -> None:
+    report = commands.add_parser(
+        "report",
+        help="analyse a folder of results",
+        description="Analyse the results in DIR, also incomplete ones: writes summary.json, STRESS/curve.csv and "
+        "report.html, which opens in any browser without a network.",
+    )
+    report.add_argument("folder", metavar="DIR", type=Path, help="folder given to 'shearbox run --out'")
+    report.set_defaults(command=_report)
+
+
+# The commands import what they need themselves: --help answers at once, and a missing package has a message.
+
+
+def _models(_: argparse.Namespace) -> None:
+    from .table import print_models
+
+    print_models()
+
+
+def _run(options: argparse.Namespace) -> None:
+    from .run import run
+
+    run(options)
+
+
+def _report(options: argparse.Namespace) -> None:
+    from .report import report
+
+    print(f"report: {report(options.folder)}")
+
+
+def _check_dependencies() -> None:
+    missing = [package for module, package in DEPENDENCIES.items() if importlib.util.find_spec(module) is None]
+    if missing:
+        raise InputError(
+            f"{sys.executable} lacks {', '.join(missing)}: apt-get install {' '.join(missing)}, "
+            "and start tools/shearbox itself, which takes /usr/bin/python3"
+        )
+
+
+def _interrupt(number: int, _: FrameType | None) -> None:
+    raise KeyboardInterrupt(number)
+
+
+def _how_to_go_on(options: argparse.Namespace) -> str:
+    if getattr(options, "command", None) is _run:
+        return "stopped; nothing is lost. To go on:\n  " + shlex.join(sys.argv)
+    return "stopped"

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Starting, stopping and questioning the engine, lmp_cdem."""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+from .errors import InputError
+from .models import ROOT
+from .phases import Phase
+
+PROGRAM = ROOT / "build" / "lmp_cdem"
+SECONDS_TO_STOP = 10.0
+LEAST_FREE_BYTES = 20_000_000
+
+
+@dataclass(frozen=True)
+class Engine:
+    """The program and the number of MPI ranks of each of its runs."""
+
+    program: Path = PROGRAM
+    ranks: int = 1
+
+    def check(self) -> None:
+        """Refuse to begin without a program that can be started."""
+        if not (self.program.is_file() and os.access(self.program, os.X_OK)):
+            raise InputError(f"the engine {self.program} is not there or cannot be run: tools/setup builds it")
+        if self.ranks > 1 and shutil.which("mpirun") is None:
+            raise InputError(f"--ranks {self.ranks}: there is no mpirun (Debian: apt-get install openmpi-bin)")
+
+    def command(self, phase: Phase) -> list[str]:
+        """The command line; variables in the order of the phase."""
+        mpi = ["mpirun", "-np", str(self.ranks), "--oversubscribe", "--bind-to", "none"] if self.ranks > 1 else []
+        variables = [word for name, value in phase.variables.items() for word in ("-var", name, value)]
+        return [*mpi, str(self.program), "-in", str(phase.deck), "-log", str(phase.log.name), *variables]
+
+    def start(self, phase: Phase, lock: int) -> subprocess.Popen[bytes]:
+        """Start a phase in its folder, in a process group of its own: the terminal's Ctrl-C does not reach it.
+
+        `lock` is the descriptor of the folder's lock, which the engine keeps until it ends.
+        """
+        phase.folder.mkdir(parents=True, exist_ok=True)
+        _rotate(phase.log)
+        with phase.screen.open("wb") as screen:
+            return subprocess.Popen(
+                self.command(phase),
+                cwd=phase.folder,
+                stdin=subprocess.DEVNULL,
+                stdout=screen,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+                pass_fds=(lock,),
+                env={**os.environ, **_environment()},
+            )
+
+
+def stop(processes: list[subprocess.Popen[bytes]]) -> None:
+    """End the process groups, politely first."""
+    for sign in (signal.SIGTERM, signal.SIGKILL):
+        for process in processes:
+            if process.poll() is None:
+                os.killpg(process.pid, sign)
+        for process in processes:
+            try:
+                process.wait(SECONDS_TO_STOP)
+            except subprocess.TimeoutExpired:
+                continue
+
+
+def explain_failure(phase: Phase, status: int) -> str:
+    """Why a phase has failed: the last ERROR line of its log, or what else is known, and where to read on."""
+    reason = _last_error(phase.log) or _last_error(phase.screen)
+    if not reason:
+        reason = f"the engine was ended by signal {-status}" if status < 0 else f"the engine ended with status {status}"
+        if status == 0:
+            reason = f"the engine ended without writing {phase.product}"
+    if free_bytes(phase.folder) < LEAST_FREE_BYTES:
+        reason += f" (the disk is full: {free_bytes(phase.folder) / 1e6:.0f} MB free)"
+    where = phase.log if phase.log.exists() else phase.screen
+    return f"{phase.label} failed: {reason}\n  log: {where}"
+
+
+def free_bytes(folder: Path) -> int:
+    """Free space on the disk of a folder that may not exist yet."""
+    existing = next(p for p in (folder.resolve(), *folder.resolve().parents) if p.exists())
+    return shutil.disk_usage(existing).free
+
+
+def _last_error(path: Path) -> str | None:
+    try:
+        lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        return None
+    found = [i for i, line in enumerate(lines) if re.match(r"\s*(?:\S+:\s*)?ERROR\b", line)]
+    if not found:
+        return None
+    at = found[-1]
+    last = [line for line in lines[at + 1 : at + 2] if line.startswith("Last command")]
+    return "\n  ".join(line.strip() for line in [lines[at], *last])
+
+
+def _rotate(path: Path) -> None:
+    """Keep the logs of earlier attempts as NAME.1, NAME.2, ..."""
+    if path.exists():
+        number = 1
+        while path.with_name(f"{path.name}.{number}").exists():
+            number += 1
+        path.rename(path.with_name(f"{path.name}.{number}"))
+
+
+def _environment() -> dict[str, str]:
+    root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"} if os.geteuid() == 0 else {}
+    return {"OMP_NUM_THREADS": "1", **root}

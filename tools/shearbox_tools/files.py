@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Files that are whole or not there, and the names of the files of a run."""
+
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+from .errors import ShearboxError
+
+PACKED = "packed"
+
+
+def stress_folder(folder: Path, sigma: float) -> Path:
+    """Where consolidation and shear at sigma (kPa) leave their files."""
+    return folder / f"{sigma:g}"
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write the file at once: an interruption or a full disk leaves the earlier one as it was."""
+    draft = path.with_name(path.name + ".draft")
+    try:
+        with draft.open("w", encoding="utf-8") as stream:
+            stream.write(text)
+            stream.flush()
+            os.fsync(stream.fileno())
+        draft.replace(path)
+    except OSError as error:
+        draft.unlink(missing_ok=True)
+        raise ShearboxError(f"{path}: {error.strerror}") from error
+
+
+def write_json(path: Path, content: Any) -> None:
+    """JSON with one value a line; NaN is not JSON and is an error of ours."""
+    write_text(path, json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n")

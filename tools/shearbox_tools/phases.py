@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The phases of a run: which deck, in which folder, with which variables, and when it is done."""
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+from .files import PACKED, stress_folder
+from .models import INPUT
+from .request import Request
+
+BYTES_PER_FRAME_AND_DISC = 600  # of the three dumps together, with 2.2 contacts per disc
+FRAMES = 101
+
+
+@dataclass(frozen=True)
+class Phase:
+    """One call of the engine; `product` is the table that is there when it is done."""
+
+    name: str
+    folder: Path
+    variables: dict[str, str]
+    product: str
+    sigma: float | None = None  # kPa
+
+    @property
+    def label(self) -> str:
+        """How the phase is called in messages and timings."""
+        return self.name if self.sigma is None else f"{self.name} {self.sigma:g} kPa"
+
+    @property
+    def deck(self) -> Path:
+        """The input file of the engine."""
+        return INPUT / f"{self.name}.in"
+
+    @property
+    def log(self) -> Path:
+        """The engine's log."""
+        return self.folder / f"{self.name}.log"
+
+    @property
+    def screen(self) -> Path:
+        """What the engine, or mpirun, says on the screen."""
+        return self.folder / f"{self.name}.out"
+
+    @property
+    def done(self) -> bool:
+        """Whether an earlier run finished it: the product is there, and the engine said goodbye in the log.
+
+        Neither alone is enough: the restart file is written after the product, and a full disk loses the last lines.
+        """
+        try:
+            product = (self.folder / self.product).read_bytes()
+            return product.endswith(b"\n") and b"\nTotal wall time:" in self.log.read_bytes()
+        except OSError:
+            return False
+
+    def displacement(self) -> float:
+        """Shear displacement (mm) reached so far, from the last whole line of shear.dat; 0 when there is none."""
+        try:
+            with (self.folder / "shear.dat").open("rb") as stream:
+                size = stream.seek(0, os.SEEK_END)
+                stream.seek(max(0, size - 1000))
+                lines = stream.read().split(b"\n")[:-1]
+            return float(lines[-1].split()[1])
+        except (OSError, IndexError, ValueError):
+            return 0.0
+
+
+def packing(folder: Path, request: Request) -> Phase:
+    """The phase that all stresses share."""
+    return Phase("pack", folder / PACKED, _common(request), "packed.csv")
+
+
+def shearing(folder: Path, request: Request, sigma: float) -> list[Phase]:
+    """Consolidation and shear at one stress (kPa)."""
+    place = stress_folder(folder, sigma)
+    common = {**_common(request), "sigma": f"{sigma:g}"}
+    packed = str((folder / PACKED / "packed.restart").resolve())
+    shear = {"speed": f"{request.speed:g}", "travel": f"{request.travel:g}"}
+    return [
+        Phase("consolidate", place, {**common, "packed": packed}, "consolidated.csv", sigma),
+        Phase("shear", place, {**common, **shear}, "shear.done", sigma),
+    ]
+
+
+def disk_need(request: Request, folder: Path) -> int:
+    """Bytes that the phases not yet done will write, roughly."""
+    model = request.model
+    walls = 6 * model.width / model.dmin + 4 * model.half_height / model.dmin
+    discs = model.ngrains * (3 if model.shape == "triple" else 1) + walls
+    left = [s for s in request.stresses if not all(phase.done for phase in shearing(folder, request, s))]
+    return int(len(left) * discs * BYTES_PER_FRAME_AND_DISC * FRAMES)
+
+
+def _common(request: Request) -> dict[str, str]:
+    return {"model": request.model.name, "seed": str(request.seed), "law": request.law, "dt": request.dt}

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The command `shearbox report`: summary.json, a curve.csv per stress, and report.html."""
+
+import io
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+from .curves import draw_curves
+from .display import duration
+from .drawing import draw_specimen
+from .errors import ShearboxError
+from .files import write_json, write_text
+from .readers import SHEAR_COLUMNS
+from .results import Results, Shear, read_results
+from .specimen import Film
+from .summary import phase_logs, summarise
+
+TEMPLATES = Path(__file__).parent / "templates"
+CURVE = (*SHEAR_COLUMNS[1:], "step")
+
+
+def report(folder: Path) -> Path:
+    """Analyse the folder and write its report, whose path is returned.
+
+    Raises ShearboxError after writing when files are damaged, and without writing when there is nothing to report on.
+    """
+    results = read_results(folder)
+    if not results.shears:
+        raise ShearboxError(f"{folder}: nothing to report on yet\n" + "\n".join([*results.problems, *results.notes]))
+    pictures = _pictures(results)
+    summary = summarise(results)
+    for shear in results.shears:
+        write_text(shear.folder / "curve.csv", _curve(shear))
+    write_json(folder / "summary.json", summary)
+    page = folder / "report.html"
+    write_text(page, _page(results, summary, pictures))
+    if results.problems:
+        raise ShearboxError(f"{page} is written, but files are damaged:\n" + "\n".join(results.problems))
+    return page
+
+
+def _pictures(results: Results) -> dict[str, str]:
+    """Data URIs by name: the diagrams, and a picture of the specimen per stress where its dumps can be read."""
+    pictures = draw_curves(results)
+    for shear in results.shears:
+        try:
+            film = Film(shear.folder, shear.data["step"], shear.data["displacement_mm"])
+            pictures[f"specimen {shear.sigma:g}"] = draw_specimen(film, shear.peak.position)
+        except ShearboxError as error:
+            results.problems.append(str(error))
+    return pictures
+
+
+def _curve(shear: Shear) -> str:
+    """The table of a shear phase with its fitted curves and dilatancy rate, as CSV."""
+    s = shear.data["displacement_mm"]
+    columns = {name: shear.data[name] for name in CURVE}
+    columns["tau_fit_kPa"] = shear.tau.series(s)
+    columns["lid_fit_mm"] = shear.lid.series(s)
+    columns["dilatancy_rate"] = shear.lid.series.deriv()(s)
+    text = io.StringIO()
+    np.savetxt(
+        text, np.column_stack(list(columns.values())), fmt="%.8g", delimiter=",", header=",".join(columns), comments=""
+    )
+    return text.getvalue()
+
+
+def _page(results: Results, summary: dict[str, Any], pictures: dict[str, str]) -> str:
+    environment = Environment(
+        loader=FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["duration"] = duration
+    environment.filters["number"] = number
+    return environment.get_template("report.html.j2").render(
+        summary=summary, shears=results.shears, line=results.line, pictures=pictures, logs=phase_logs(results),
+        consolidations=results.consolidations,
+    )  # fmt: skip
+
+
+def number(value: float | None, digits: int = 4) -> str:
+    """A number as people write it; a dash for what is not known."""
+    return "–" if value is None else f"{value:.{digits}g}".replace("e-0", "e-").replace("e+0", "e").replace("-", "−")
