@@ -26,6 +26,7 @@ public:
   // The discs in any unit and position, or std::invalid_argument with what is wrong with them.
   explicit GrainShape(const std::vector<Member> &given) : members(given) {
     check();
+    bring_near();
     shift_to_centre();
     scale_to_unit_radius();
     const Moments m = moments();
@@ -52,9 +53,11 @@ public:
   double area() const { return unit_area; }       // over radius^2
   double inertia() const { return unit_inertia; } // over mass radius^2
 
-  // How many neighbours of its discs' own size fit around the grain (six around a disc), and the sum over them of the
-  // squared lever arms of a normal and of a tangential force, over radius^2. For the stability limit.
+  // How many neighbours of its discs' own size fit around the grain (six around a disc); how unevenly their directions
+  // phi lie, |sum of exp(2 i phi)|; and the sum over them of the squared lever arms of a normal and of a tangential
+  // force, over radius^2. For the stability limit.
   double neighbours() const { return surface.neighbours; }
+  double unevenness() const { return std::hypot(surface.cos2, surface.sin2); }
   double normal_levers() const { return surface.normal; }
   double tangential_levers() const { return surface.tangential; }
 
@@ -74,7 +77,7 @@ private:
     double area, x, y, polar;
   };
   struct Surface {
-    double neighbours, normal, tangential;
+    double neighbours, cos2, sin2, normal, tangential;
   };
 
   static constexpr double TOUCHING = 1e-6; // gap, over the smaller radius, at which two discs still count as joined
@@ -207,6 +210,16 @@ private:
     return sum;
   }
 
+  // About the first disc, in units of the largest radius: the moments of a template far away would lose their digits.
+  void bring_near() {
+    const Member origin = members.front();
+    double unit = 0;
+    for (const Member &d : members)
+      unit = std::max(unit, d.r);
+    for (Member &d : members)
+      d = {(d.x - origin.x) / unit, (d.y - origin.y) / unit, d.r / unit};
+  }
+
   void shift_to_centre() {
     const Moments m = moments();
     for (Member &d : members) {
@@ -227,7 +240,7 @@ private:
   // six on a full turn, one more than there are gaps on an arc. Lever arms: |o x n| of the normal force, o.n + r of the
   // tangential one.
   void survey_surface() {
-    surface = {0, 0, 0};
+    surface = {0, 0, 0, 0, 0};
     for (std::size_t k = 0; k < members.size(); k++) {
       const Member &d = members[k];
       const double offset = std::hypot(d.x, d.y), towards = std::atan2(d.y, d.x);
@@ -236,6 +249,8 @@ private:
         const Powers c(arc.from - margin - towards, arc.to + margin - towards);
         const double angle = arc.to - arc.from + 2 * margin;
         surface.neighbours += 3 / M_PI * angle;
+        surface.cos2 += 3 / M_PI * (std::sin(2 * (arc.to + margin)) - std::sin(2 * (arc.from - margin))) / 2;
+        surface.sin2 -= 3 / M_PI * (std::cos(2 * (arc.to + margin)) - std::cos(2 * (arc.from - margin))) / 2;
         surface.normal += 3 / M_PI * offset * offset * (angle - c.c2);
         surface.tangential += 3 / M_PI * (d.r * d.r * angle + 2 * d.r * offset * c.c1 + offset * offset * c.c2);
       }
