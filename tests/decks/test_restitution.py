@@ -101,7 +101,7 @@ def test_restitution_and_duration(tmp_path: Path, law: str, ranks: int, h: float
 
 @pytest.mark.parametrize("h", [0.215, 0.5])
 def test_restitution_if_the_dashpot_may_not_pull(tmp_path: Path, law: str, ranks: int, h: float) -> None:
-    measured, _ = collide(tmp_path, h, 40, law=law, ranks=ranks, limit="yes")
+    measured, _ = collide(tmp_path, h, 40, law=law, ranks=ranks, cut="yes")
     for kind in KINDS:
         assert np.median(measured[kind]) == pytest.approx(restitution_without_pull(h), rel=TOLERANCE[h]), kind
 

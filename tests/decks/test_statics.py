@@ -34,7 +34,9 @@ def test_disc_at_rest_on_two(tmp_path: Path, law: str, ranks: int, ks: float) ->
     grain = Disc(0, 0)
     d = grain.diameter
     walls = [Disc(side * d * math.sin(slope), -d * math.cos(slope), type=2) for side in (-1, 1)]
-    run_ = run(SETTLE, tmp_path, discs=[grain, *walls], ranks=ranks, law=law, kn=KN, ks=ks, hn=0.5, hs=0.5, g=G, steps=3000)
+    run_ = run(
+        SETTLE, tmp_path, discs=[grain, *walls], ranks=ranks, law=law, kn=KN, ks=ks, hn=0.5, hs=0.5, g=G, steps=3000
+    )
     weight = grain.mass * G
     sink = weight / (2 * (KN * math.cos(slope) ** 2 + ks * math.sin(slope) ** 2))
     fn, ft = KN * sink * math.cos(slope), ks * sink * math.sin(slope)

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Scenes that more than one test uses."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from engine import Disc
+
+Box = tuple[float, float, float, float]
+
+
+def lattice(nx: int, ny: int, overlap: float, speed: float = 0, seed: int = 1) -> tuple[list[Disc], Box]:
+    """Triangular lattice that fills a periodic box (ny even); every disc has six contacts. Velocities are random."""
+    random = np.random.default_rng(seed)
+    d = Disc(0, 0).diameter
+    a, b = d - overlap, (d - overlap) * math.sqrt(3) / 2
+    discs = []
+    for j in range(ny):
+        for i in range(nx):
+            vx, vy, spin = random.uniform(-speed, speed, 3)
+            discs.append(Disc((i + 0.25 + 0.5 * (j % 2)) * a, (j + 0.5) * b, vx=vx, vy=vy, omega=spin / d))
+    return discs, (0, nx * a, 0, ny * b)
+
+
+def cloud(n: int, speed: float, seed: int = 1) -> list[Disc]:
+    """n x n discs of many sizes, not touching, that fly towards the origin with random velocities and spins."""
+    random = np.random.default_rng(seed)
+    pitch = 4.2e-3
+    discs = []
+    for i in range(n):
+        for j in range(n):
+            x, y = pitch * (i - (n - 1) / 2), pitch * (j - (n - 1) / 2)
+            vx, vy, spin = random.uniform(-speed, speed, 3)
+            inward = 2 * speed / (n * pitch)
+            discs.append(Disc(x, y, random.uniform(2e-3, 4e-3), vx - inward * x, vy - inward * y, spin / 1e-3))
+    return discs
+
+
+def shifted(discs: list[Disc], dx: float, dy: float = 0) -> list[Disc]:
+    return [replace(d, x=d.x + dx, y=d.y + dy) for d in discs]
