@@ -83,7 +83,9 @@ FixCDEMIntegrate::~FixCDEMIntegrate() {
   memory->destroy(state);
 }
 
-int FixCDEMIntegrate::setmask() { return FixConst::INITIAL_INTEGRATE | FixConst::FINAL_INTEGRATE; }
+int FixCDEMIntegrate::setmask() {
+  return FixConst::INITIAL_INTEGRATE | FixConst::POST_NEIGHBOR | FixConst::FINAL_INTEGRATE;
+}
 
 void FixCDEMIntegrate::init() {
   if (!dynamic_cast<PairCDEM *>(force->pair))
@@ -134,8 +136,6 @@ void FixCDEMIntegrate::apply_step_rule() {
   }
 }
 
-bool FixCDEMIntegrate::is_free(int i) const { return atom->mask[i] & groupbit; }
-
 bool FixCDEMIntegrate::knows_acceleration(int i) const {
   return valid_step == update->ntimestep && !std::isnan(state[i][AX]);
 }
@@ -146,15 +146,24 @@ double FixCDEMIntegrate::prediction_weight() const {
 }
 
 void FixCDEMIntegrate::take_acceleration(int i) {
-  const double per_mass = 1 / atom->rmass[i];
-  state[i][AX] = per_mass * atom->f[i][0];
-  state[i][AY] = per_mass * atom->f[i][1];
-  state[i][ALPHA] = per_mass * atom->torque[i][2] / (inertia[atom->type[i]] * atom->radius[i] * atom->radius[i]);
+  state[i][AX] = inverse[i].mass * atom->f[i][0];
+  state[i][AY] = inverse[i].mass * atom->f[i][1];
+  state[i][ALPHA] = inverse[i].inertia * atom->torque[i][2];
+}
+
+// Divisions, done once for many steps.
+void FixCDEMIntegrate::post_neighbor() {
+  inverse.resize(atom->nlocal);
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double m = atom->rmass[i], r = atom->radius[i];
+    inverse[i] = is_free(i) ? Inverse{1 / m, 1 / (m * r * r * inertia[atom->type[i]])} : Inverse{0, 0};
+  }
 }
 
 // Other fixes may still add to the forces in their setup: what is taken here is for output, the first step takes it
 // anew.
 void FixCDEMIntegrate::setup(int) {
+  post_neighbor();
   to_start.clear();
   for (int i = 0; i < atom->nlocal; i++) {
     if (is_free(i) && !knows_acceleration(i)) {
@@ -173,29 +182,35 @@ void FixCDEMIntegrate::initial_integrate(int) {
   to_start.clear();
 
   const double dt = update->dt, half = 0.5 * dt;
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!is_free(i))
+  const int n = atom->nlocal, *const mask = atom->mask;
+  double *x = n ? atom->x[0] : nullptr, *v = n ? atom->v[0] : nullptr, *omega = n ? atom->omega[0] : nullptr;
+  double *s = n ? state[0] : nullptr;
+  for (int i = 0; i < n; i++, x += 3, v += 3, omega += 3, s += NCOLUMNS) {
+    if (!(mask[i] & groupbit))
       continue;
-    double *const x = atom->x[i], *const v = atom->v[i], *const omega = atom->omega[i];
-    v[0] += half * state[i][AX];
-    v[1] += half * state[i][AY];
-    omega[2] += half * state[i][ALPHA];
+    v[0] += half * s[AX];
+    v[1] += half * s[AY];
+    omega[2] += half * s[ALPHA];
     x[0] += dt * v[0];
     x[1] += dt * v[1];
-    state[i][ANGLE] += dt * omega[2];
+    s[ANGLE] += dt * omega[2];
   }
 }
 
 void FixCDEMIntegrate::final_integrate() {
   const double half = 0.5 * update->dt;
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!is_free(i))
+  const int n = atom->nlocal, *const mask = atom->mask;
+  const double *f = n ? atom->f[0] : nullptr, *torque = n ? atom->torque[0] : nullptr;
+  double *v = n ? atom->v[0] : nullptr, *omega = n ? atom->omega[0] : nullptr, *s = n ? state[0] : nullptr;
+  for (int i = 0; i < n; i++, v += 3, omega += 3, f += 3, torque += 3, s += NCOLUMNS) {
+    if (!(mask[i] & groupbit))
       continue;
-    take_acceleration(i);
-    double *const v = atom->v[i];
-    v[0] += half * state[i][AX];
-    v[1] += half * state[i][AY];
-    atom->omega[i][2] += half * state[i][ALPHA];
+    s[AX] = inverse[i].mass * f[0];
+    s[AY] = inverse[i].mass * f[1];
+    s[ALPHA] = inverse[i].inertia * torque[2];
+    v[0] += half * s[AX];
+    v[1] += half * s[AY];
+    omega[2] += half * s[ALPHA];
   }
   valid_step = update->ntimestep;
 }

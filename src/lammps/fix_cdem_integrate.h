@@ -13,6 +13,7 @@
 // A run that goes on, also after a restart, starts from the stored acceleration and so continues to the same bits.
 #pragma once
 
+#include "atom.h"
 #include "fix.h"
 
 #include <vector>
@@ -32,6 +33,7 @@ public:
   int setmask() override;
   void init() override;
   void setup(int) override;
+  void post_neighbor() override;
   void initial_integrate(int) override;
   void final_integrate() override;
   double compute_scalar() override;
@@ -51,7 +53,7 @@ public:
   int size_restart(int) override;
   int maxsize_restart() override;
 
-  bool is_free(int i) const;
+  bool is_free(int i) const { return atom->mask[i] & groupbit; }
   // Whether the stored acceleration belongs to the present state; else the first step takes it from the forces.
   bool knows_acceleration(int i) const;
   // Share of the half step by which the dashpots' velocity is carried forward: second order in time, and within the
@@ -66,6 +68,12 @@ private:
   double scene_limit() const;
   void apply_step_rule();
   void take_acceleration(int i);
+
+  // 1/m and 1/I of a grain, 0 of walls
+  struct Inverse {
+    double mass, inertia;
+  };
+  std::vector<Inverse> inverse;
 
   Step rule = Step::check;
   double max_step;
