@@ -65,7 +65,7 @@ class BarDisplay:
     def moved(self, label: str, displacement: float) -> None:
         task = self._tasks[label]
         first = label not in self._reached
-        self._progress.update(task, completed=displacement, state=f"{displacement:.2f} mm")
+        self._progress.update(task, completed=displacement, state=f"{displacement:.2f} mm", refresh=True)
         if not first:
             self._progress.update(self._all, advance=displacement - self._reached[label])
         self._reached[label] = displacement

@@ -16,7 +16,7 @@ DISCS = ("id", "disc", "x", "y", "radius", "angle", "type")
 CONTACTS = ("id1", "id2", "disc1", "disc2", "x", "y", "fn", "ft", "fx", "fy", "nx", "ny", "overlap", "sliding")
 
 _FRAME = re.compile(rb"^ITEM: TIMESTEP\r?\n", re.MULTILINE)
-_LAST_OF_HEAD = ("ITEM: ATOMS", "ITEM: ENTRIES")
+_LAST_OF_HEAD = (b"ITEM: ATOMS", b"ITEM: ENTRIES")
 _LONGEST_HEAD = 4096  # bytes
 _ENDLESS = 1 << 62
 
@@ -59,10 +59,12 @@ class Dump:
         start, end = self._blocks[step]
         with self.path.open("rb") as stream:
             stream.seek(start)
-            lines = stream.read(end - start).decode(errors="replace").splitlines()
+            lines = stream.read(end - start).splitlines()
         head = self._head(lines, start)
-        table = self._table(lines[head.lines :], head, start)
-        return {name: table[:, k] for name, k in zip(self.columns, self._order(head))}
+        order = self._order(head)
+        body = [line.decode(errors="replace") for line in lines[head.lines : head.lines + head.count]]
+        table = self._table(body, head, start)
+        return {name: table[:, k] for name, k in zip(self.columns, order)}
 
     def _read_index(self) -> dict[int, tuple[int, int]]:
         """Bytes from and to of the last whole frame of each step."""
@@ -83,7 +85,7 @@ class Dump:
         index = {}
         for start, end in zip(starts, [*starts[1:], len(data)]):
             text = data[start:end]
-            head = self._head(text[:_LONGEST_HEAD].decode(errors="replace").splitlines(), start)
+            head = self._head(text[:_LONGEST_HEAD].splitlines(), start)
             rows = text.count(b"\n") - head.lines
             if rows == head.count:
                 index[head.step] = (start, end)
@@ -92,22 +94,25 @@ class Dump:
                 raise ShearboxError(f"{self.path}, line {line}: a frame of {rows} rows that should have {head.count}")
         return index
 
-    def _head(self, lines: list[str], offset: int) -> _Head:
+    def _head(self, lines: list[bytes], offset: int) -> _Head:
         """Step, number of rows and names of the columns; a head that is cut off asks for more rows than there are."""
         last = next((i for i, line in enumerate(lines) if line.startswith(_LAST_OF_HEAD)), None)
         if last is None:
             return _Head(-1, _ENDLESS, [], 0)
         return _Head(
-            self._integer(lines, 1, offset), self._integer(lines, 3, offset), lines[last].split()[2:], last + 1
+            self._integer(lines, 1, offset),
+            self._integer(lines, 3, offset),
+            lines[last].decode(errors="replace").split()[2:],
+            last + 1,
         )
 
-    def _integer(self, lines: list[str], index: int, offset: int) -> int:
+    def _integer(self, lines: list[bytes], index: int, offset: int) -> int:
         try:
             return int(lines[index])
         except ValueError as error:
             line = self._line_number(offset) + index
             raise ShearboxError(
-                f"{self.path}, line {line}: a whole number is expected, not {short(lines[index])}"
+                f"{self.path}, line {line}: a whole number is expected, not {short(lines[index].decode(errors='replace'))}"
             ) from error
 
     def _order(self, head: _Head) -> list[int]:
@@ -117,7 +122,7 @@ class Dump:
         if len(data) == len(self.columns):
             return data
         raise ShearboxError(
-            f"{self.path}: the columns {' '.join(self.columns)} are expected, there are {' '.join(head.names)}"
+            f"{self.path}: columns {' '.join(self.columns)} are expected, there are {' '.join(head.names)}"
         )
 
     def _table(self, body: list[str], head: _Head, offset: int) -> np.ndarray:
@@ -140,16 +145,18 @@ class Dump:
 
 
 def last_whole_byte(path: Path) -> int:
-    """Length of the file without a last frame that is not whole."""
+    """Length of the file without what follows its last whole frame."""
     data = path.read_bytes()
     starts = _frame_starts(data)
     if not starts:
         return 0
-    lines = data[starts[-1] :].decode(errors="replace").splitlines(keepends=True)
-    head = next((i for i, line in enumerate(lines) if line.startswith(_LAST_OF_HEAD)), None)
-    if head is None or not data.endswith(b"\n"):
+    lines = data[starts[-1] :].splitlines(keepends=True)
+    last_of_head = next((i for i, line in enumerate(lines) if line.startswith(_LAST_OF_HEAD)), None)
+    if last_of_head is None:
         return starts[-1]
-    return len(data) if len(lines) - head - 1 == int(lines[3]) else starts[-1]
+    frame = lines[: last_of_head + 1 + int(lines[3])]
+    whole = len(frame) == last_of_head + 1 + int(lines[3]) and frame[-1].endswith(b"\n")
+    return starts[-1] + sum(map(len, frame)) if whole else starts[-1]
 
 
 def _frame_starts(data: bytes | mmap.mmap) -> list[int]:

@@ -15,6 +15,7 @@ from .peak import Peak, find_peak
 from .polynomial import FEWEST_ROWS, Fit, fit_curve
 from .readers import Columns, read_row, read_shear
 from .request import read_record
+from .specimen import count_lost
 from .strength import Line, fit_line
 
 
@@ -29,6 +30,7 @@ class Shear:
     tau: Fit
     lid: Fit
     peak: Peak
+    lost: int | None  # grains outside the box in the last frame
 
     @property
     def reached(self) -> float:
@@ -96,7 +98,7 @@ def read_results(folder: Path) -> Results:
         row = _optional(stress_folder(folder, sigma) / "consolidated.csv", problems)
         if row is not None:
             consolidations[sigma] = row
-        shear = _read_shear(folder, sigma, problems, notes)
+        shear = _read_shear(folder, sigma, record["identity"], problems, notes)
         if shear is not None:
             shears.append(shear)
             if not shear.complete:
@@ -106,7 +108,9 @@ def read_results(folder: Path) -> Results:
     return Results(folder, record["identity"], packing, consolidations, shears, problems, notes)
 
 
-def _read_shear(folder: Path, sigma: float, problems: list[str], notes: list[str]) -> Shear | None:
+def _read_shear(
+    folder: Path, sigma: float, identity: dict[str, Any], problems: list[str], notes: list[str]
+) -> Shear | None:
     place = stress_folder(folder, sigma)
     path = place / "shear.dat"
     if not path.exists():
@@ -121,7 +125,16 @@ def _read_shear(folder: Path, sigma: float, problems: list[str], notes: list[str
         notes.append(f"{sigma:g} kPa has {len(data['step'])} rows of data only, too few to fit a curve")
         return None
     tau, lid = (fit_curve(data["displacement_mm"], data[name]) for name in ("tau_kPa", "lid_mm"))
-    return Shear(sigma, place, data, (place / "shear.done").exists(), tau, lid, find_peak(tau))
+    lost = _lost(place, identity, problems)
+    return Shear(sigma, place, data, (place / "shear.done").exists(), tau, lid, find_peak(tau), lost)
+
+
+def _lost(place: Path, identity: dict[str, Any], problems: list[str]) -> int | None:
+    try:
+        return count_lost(place, identity["model ngrains"], identity["model width"], identity["model half_height"])
+    except ShearboxError as error:
+        problems.append(str(error))
+        return None
 
 
 def _optional(path: Path, problems: list[str]) -> dict[str, float] | None:

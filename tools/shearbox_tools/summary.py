@@ -13,7 +13,6 @@ from .features import Verdict, steepest_dilatancy
 from .files import PACKED
 from .logs import Log, read_logs
 from .results import Results, Shear
-from .specimen import count_lost
 from .strength import COVERAGE, Line
 
 DIGITS = 6
@@ -42,12 +41,6 @@ def summarise(results: Results) -> dict[str, Any]:
         "parameters": {**identity["parameters"], **{k: v for k, v in identity.items() if k.startswith("model ")}},
     }
     return _plain(summary)
-
-
-def lost_grains(results: Results, shear: Shear) -> int:
-    """Grains lost until the last frame of a shear phase."""
-    identity = results.identity
-    return count_lost(shear.folder, identity["model ngrains"], identity["model width"], identity["model half_height"])
 
 
 def _strength(line: Line | None) -> dict[str, Any]:
@@ -87,7 +80,7 @@ def _stress(results: Results, shear: Shear) -> dict[str, Any]:
         "trm": float(shear.data["trm"][-1]),
         "felt_stress_mean_kPa": float(np.mean(shear.data["sigma_kPa"])),
         "felt_stress_error_percent": 100 * shear.felt_error,
-        "grains_lost": lost_grains(results, shear),
+        "grains_lost": shear.lost,
         "dangerous_builds": shear.dangerous_builds,
         "consolidation": results.consolidations.get(shear.sigma),
         "criteria": {name: _verdict(v) for name, v in shear.verdicts.items()},

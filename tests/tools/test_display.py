@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Progress on a terminal and elsewhere."""
+
+import io
+
+import pytest
+from rich.console import Console
+
+from shearbox_tools import display
+
+
+def show(console: Console, monkeypatch) -> str:
+    now = [0.0]
+    monkeypatch.setattr(display.time, "monotonic", lambda: now[0])
+    shown = display.make_display(console, total=16, reached=4)
+    shown.started("pack", None)
+    shown.ended("pack", "done in 4 s")
+    shown.started("shear 100 kPa", 8)
+    for k in range(5):
+        now[0] = 40.0 * k
+        shown.moved("shear 100 kPa", 4.0 + k)
+    shown.ended("shear 100 kPa", "done in 3 min")
+    shown.close()
+    return console.file.getvalue()
+
+
+def test_plain_lines(monkeypatch):
+    text = show(Console(file=io.StringIO(), width=200), monkeypatch)
+    assert text.splitlines() == [
+        "pack: started",
+        "pack: done in 4 s",
+        "shear 100 kPa: started",
+        "shear 100 kPa at 5.00 mm; 31 % of all, about 7 min left",
+        "shear 100 kPa at 6.00 mm; 38 % of all, about 7 min left",
+        "shear 100 kPa at 7.00 mm; 44 % of all, about 6 min left",
+        "shear 100 kPa at 8.00 mm; 50 % of all, about 5 min left",
+        "shear 100 kPa: done in 3 min",
+    ]
+
+
+def test_bars_on_a_terminal(monkeypatch):
+    text = show(Console(file=io.StringIO(), width=120, force_terminal=True), monkeypatch)
+    assert "all stresses" in text and "8.00 mm" in text and "left" in text
+    assert "shear 100 kPa: done in 3 min" in text
+
+
+@pytest.mark.parametrize(
+    "seconds, text", [(3.4, "3 s"), (99, "99 s"), (101, "2 min"), (5900, "98 min"), (12000, "3 h 20 min")]
+)
+def test_durations(seconds, text):
+    assert display.duration(seconds) == text

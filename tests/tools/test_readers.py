@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Reading tables and dumps: whole, interrupted, damaged."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import synthetic
+
+from shearbox_tools.dumps import CONTACTS, DISCS, GRAINS, Dump
+from shearbox_tools.errors import ShearboxError
+from shearbox_tools.readers import read_row, read_shear
+from shearbox_tools.repair import repair
+
+
+@pytest.fixture(name="shear")
+def _shear(tmp_path: Path) -> Path:
+    path = tmp_path / "shear.dat"
+    synthetic.write_shear(path, synthetic.curves(100, 8, rows=20))
+    return path
+
+
+@pytest.fixture(name="frames")
+def _frames(tmp_path: Path) -> Path:
+    synthetic.write_frames(tmp_path, [0, 5000, 10000], 8)
+    return tmp_path
+
+
+def edit(path: Path, line: int, text: str) -> None:
+    """Replace a line, counted from 1."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    lines[line - 1] = text
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def test_all_rows(shear):
+    table = read_shear(shear)
+    expected = synthetic.curves(100, 8, rows=20)
+    for name, column in expected.items():
+        assert table[name] == pytest.approx(column, rel=1e-8), name
+
+
+def test_the_last_of_repeated_rows_counts(shear):
+    again = synthetic.curves(100, 8, rows=20)
+    again["tau_kPa"] = again["tau_kPa"] + 1
+    synthetic.write_shear(shear, again, slice(15, 18), "a")
+    tau = read_shear(shear)["tau_kPa"] - synthetic.curves(100, 8, rows=20)["tau_kPa"]
+    assert tau == pytest.approx([0] * 15 + [1] * 3 + [0] * 2, abs=1e-6)
+
+
+def test_a_line_without_end_is_left_out(shear):
+    with shear.open("a", encoding="utf-8") as stream:
+        stream.write("105000 8.2 4")
+    assert len(read_shear(shear)["step"]) == 20
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("5000 1 2 3", "line 7: 9 values are expected, there are 4: '5000 1 2 3'"),
+        ("5000 1 2 3 4 5 6 7 many", "line 7: not a number in '5000 1 2 3 4 5 6 7 many'"),
+        ("5000 1 2 3 4 5 6 7 nan", "line 7: a value that is not finite"),
+        ("\0\0\0\0", "line 7: 9 values are expected"),
+    ],
+)
+def test_a_damaged_row_is_named(shear, text, message):
+    edit(shear, 7, text)
+    with pytest.raises(ShearboxError) as error:
+        read_shear(shear)
+    assert f"{shear}, {message}" in str(error.value)
+
+
+@pytest.mark.parametrize("text", ["", "# only a header\n"])
+def test_no_rows(shear, text):
+    shear.write_text(text, encoding="utf-8")
+    with pytest.raises(ShearboxError, match="no rows of data"):
+        read_shear(shear)
+
+
+def test_no_file(tmp_path):
+    with pytest.raises(ShearboxError, match="No such file"):
+        read_shear(tmp_path / "none.dat")
+    with pytest.raises(ShearboxError, match="No such file"):
+        Dump(tmp_path / "none.dump", GRAINS)
+
+
+def test_a_row_of_csv(tmp_path):
+    path = tmp_path / "packed.csv"
+    path.write_text("grains, height_m\n350, 0.0987\n", encoding="utf-8")
+    assert read_row(path) == {"grains": 350, "height_m": 0.0987}
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("", "0 whole lines"),
+        ("a,b\n", "1 whole lines"),
+        ("a,b\n1\n", "line 2: 2 values"),
+        ("a,b\n1,x\n", "line 2: not a"),
+    ],
+)
+def test_a_damaged_csv_is_named(tmp_path, text, message):
+    path = tmp_path / "packed.csv"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(ShearboxError, match=message):
+        read_row(path)
+
+
+@pytest.mark.parametrize("name, columns", [("grains", GRAINS), ("discs", DISCS), ("contacts", CONTACTS)])
+def test_frames(frames, name, columns):
+    dump = Dump(frames / f"{name}.dump", columns)
+    assert dump.steps == [0, 5000, 10000]
+    assert dump.nearest(6000) == 5000
+    frame = dump.frame(5000)
+    assert tuple(frame) == columns
+    assert len({len(column) for column in frame.values()}) == 1
+
+
+def test_columns_go_by_name_or_by_position(frames):
+    grains, discs = Dump(frames / "grains.dump", GRAINS).frame(0), Dump(frames / "discs.dump", DISCS).frame(0)
+    for name in ("id", "type", "x", "y", "radius"):
+        assert np.array_equal(grains[name], discs[name]), name
+    edit(frames / "grains.dump", 9, "ITEM: ATOMS type id x y vx vy omega radius angle trm")
+    assert np.array_equal(Dump(frames / "grains.dump", GRAINS).frame(0)["type"], grains["id"])
+
+
+def test_a_frame_without_rows(tmp_path):
+    path = tmp_path / "contacts.dump"
+    path.write_text(
+        "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n0\nITEM: ENTRIES index " + "c " * 14 + "\n", encoding="utf-8"
+    )
+    assert Dump(path, CONTACTS).frame(0)["fn"].shape == (0,)
+
+
+def test_a_last_frame_that_is_cut_off_is_left_out_and_repaired(frames):
+    path = frames / "grains.dump"
+    whole = path.read_bytes()
+    third = whole.rfind(b"ITEM: TIMESTEP")
+    for end in (third + 5, third + 20, third + 60, third + 200, len(whole) - 1, len(whole) - 100):
+        path.write_bytes(whole[:end])
+        if end > third + 14:  # before that the fragment is not yet known as a frame, and goes with the repair
+            assert Dump(path, GRAINS).steps == [0, 5000]
+        repair(frames)
+        assert path.read_bytes() == whole[:third]
+    path.write_bytes(whole)
+    repair(frames)
+    assert path.read_bytes() == whole
+
+
+def test_the_last_of_repeated_frames_counts(frames):
+    path = frames / "grains.dump"
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text + text[text.rfind("ITEM: TIMESTEP") :].replace(" 0.7\n", " 0.9\n"), encoding="utf-8")
+    dump = Dump(path, GRAINS)
+    assert dump.steps == [0, 5000, 10000]
+    assert dump.frame(10000)["trm"][0] == 0.9
+
+
+@pytest.mark.parametrize(
+    "line, text, message",
+    [
+        (1, "nonsense", "line 1: 'ITEM: TIMESTEP' is expected, not 'nonsense'"),
+        (2, "many", "line 2: a whole number is expected, not 'many'"),
+        (4, "7", "line 1: a frame of "),
+        (9, "ITEM: ATOMS id type x", "columns id type x y vx"),
+        (12, "3 1 0.01 0.02 0 0 0 0.003 0", "line 12: 10 values are expected, there are 9"),
+        (12, "3 1 0.01 0.02 0 0 0 0.003 0 wide", "line 12: not a number"),
+        (12, "3 1 0.01 0.02 0 0 0 0.003 0 inf", "line 12: a value that is not finite"),
+    ],
+)
+def test_a_damaged_dump_is_named(frames, line, text, message):
+    edit(frames / "grains.dump", line, text)
+    with pytest.raises(ShearboxError) as error:
+        Dump(frames / "grains.dump", GRAINS).frame(0)
+    assert message in str(error.value)
+    assert str(frames / "grains.dump") in str(error.value)
+
+
+def test_an_empty_dump_is_named(frames):
+    (frames / "grains.dump").write_text("", encoding="utf-8")
+    with pytest.raises(ShearboxError, match="grains.dump: the file is empty"):
+        Dump(frames / "grains.dump", GRAINS)
+
+
+def test_a_lone_restart_may_be_torn(tmp_path):
+    (tmp_path / "shear.restart.a").write_text("half", encoding="utf-8")
+    repair(tmp_path)
+    assert not (tmp_path / "shear.restart.a").exists()
+    for name in "ab":
+        (tmp_path / f"shear.restart.{name}").write_text("whole", encoding="utf-8")
+    repair(tmp_path)
+    assert (tmp_path / "shear.restart.a").exists() and (tmp_path / "shear.restart.b").exists()

@@ -1,0 +1,256 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The report on folders that are complete, incomplete and damaged."""
+
+import json
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+import synthetic
+
+from shearbox_tools.cli import main
+from shearbox_tools.models import INPUT, all_models, find_model, read_variables
+from shearbox_tools.report import number, report
+from shearbox_tools.request import Request
+from shearbox_tools.results import read_results
+from shearbox_tools.specimen import Film, count_lost
+from shearbox_tools.style import PAPER_COLOURS, colours
+
+STRESSES = (100.0, 200.0)
+STEPS = [0, 2000000, 4000000]
+
+
+@pytest.fixture(name="folder")
+def _folder(tmp_path: Path) -> Path:
+    model = find_model("TypeA_10x5_4-8_1-circle_350", all_models())
+    identity = Request(model, STRESSES).identity(read_variables(INPUT / "parameters.in"))
+    (tmp_path / "run.json").write_text(json.dumps({"identity": identity, "stresses": STRESSES}), encoding="utf-8")
+    (tmp_path / "packed").mkdir()
+    synthetic.write_row(tmp_path / "packed" / "packed.csv", **bed())
+    for sigma in STRESSES:
+        place = tmp_path / f"{sigma:g}"
+        place.mkdir()
+        synthetic.write_row(place / "consolidated.csv", **bed(), sigma_kPa=sigma)
+        synthetic.write_shear(place / "shear.dat", synthetic.curves(sigma, 8))
+        synthetic.write_frames(place, STEPS, 8)
+        (place / "shear.done").write_text("done\n", encoding="utf-8")
+    return tmp_path
+
+
+def bed() -> dict[str, float]:
+    return {
+        "grains": 350,
+        "height_m": 0.0987,
+        "solid_fraction": 0.835,
+        "solid_fraction_bottom": 0.834,
+        "solid_fraction_top": 0.836,
+        "unbalanced": 8e-5,
+        "kinetic_J": 3e-12,
+        "steps": 123000,
+    }
+
+
+def summary(folder: Path) -> dict:
+    return json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+
+
+def test_the_page_stands_alone_and_is_well_formed(folder):
+    page = report(folder).read_text(encoding="utf-8")
+    links = re.findall(r'(?:src|href)="([^"]{0,60})', page)
+    assert [link for link in links if not link.startswith("data:")] == ["https://doi.org/10.15002/00007990"]
+    assert len([link for link in links if link.startswith("data:image/svg+xml")]) == 4
+    assert len([link for link in links if link.startswith("data:image/png")]) == 2
+    assert "<script" not in page and "{{" not in page
+    checker = TagChecker()
+    checker.feed(page)
+    assert not checker.open_tags
+
+
+class TagChecker(HTMLParser):
+    """Every tag that is opened is closed, in order."""
+
+    VOID = {"meta", "img", "br", "link"}
+
+    def __init__(self):
+        super().__init__()
+        self.open_tags: list[str] = []
+
+    def handle_starttag(self, tag, attrs):
+        if tag not in self.VOID:
+            self.open_tags.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open_tags.pop() == tag, f"</{tag}> at line {self.getpos()[0]}"
+
+
+def test_numbers_of_the_summary(folder):
+    report(folder)
+    result = summary(folder)
+    first = result["stresses"][0]
+    assert result["complete"] and not result["notes"]
+    assert first["tau_peak_kPa"] == pytest.approx(55, abs=2)
+    assert first["displacement_at_peak_mm"] == pytest.approx(2.5, abs=1.2)
+    assert first["felt_stress_error_percent"] == pytest.approx(0, abs=0.05)
+    assert first["trm"] == pytest.approx(0.8, abs=0.01)
+    assert first["grains_lost"] == 0 and first["dangerous_builds"] == 0
+    assert first["consolidation"]["height_m"] == 0.0987
+    assert result["dt_s"] == pytest.approx(0.01 / 2 / synthetic.STEPS_PER_ROW)
+    assert result["criteria"]["dilates"]["holds"]
+    assert result["criteria"]["proportional"]["holds"] is None, "two stresses cannot show it"
+
+
+def test_the_table_behind_the_curves(folder):
+    report(folder)
+    table = np.genfromtxt(folder / "200" / "curve.csv", delimiter=",", names=True)
+    truth = synthetic.curves(200, 8)
+    assert table.dtype.names[:4] == ("displacement_mm", "tau_kPa", "sigma_kPa", "lid_mm")
+    assert table["tau_kPa"] == pytest.approx(truth["tau_kPa"], rel=1e-6)
+    assert np.std(table["tau_kPa"] - table["tau_fit_kPa"]) == pytest.approx(4, abs=1)
+    half = slice(300, 500)
+    slope = np.gradient(table["lid_fit_mm"], table["displacement_mm"])
+    assert table["dilatancy_rate"][half] == pytest.approx(slope[half], abs=1e-3)
+
+
+def test_the_same_folder_gives_the_same_files(folder):
+    report(folder)
+    names = ("summary.json", "report.html", "100/curve.csv")
+    before = [(folder / name).read_bytes() for name in names]
+    report(folder)
+    assert [(folder / name).read_bytes() for name in names] == before
+
+
+def test_a_missing_stress_is_said(folder):
+    (folder / "200" / "shear.dat").unlink()
+    page = report(folder).read_text(encoding="utf-8")
+    assert "200 kPa has not been sheared yet" in page
+    assert not summary(folder)["complete"]
+
+
+def test_an_unfinished_stress_is_said(folder):
+    synthetic.write_shear(folder / "200" / "shear.dat", synthetic.curves(200, 8), slice(0, 300))
+    (folder / "200" / "shear.done").unlink()
+    assert "200 kPa has reached 3.00 mm only" in report(folder).read_text(encoding="utf-8")
+
+
+def test_too_few_rows_are_said(folder):
+    synthetic.write_shear(folder / "200" / "shear.dat", synthetic.curves(200, 8), slice(0, 3))
+    assert "200 kPa has 3 rows of data only" in report(folder).read_text(encoding="utf-8")
+
+
+def test_a_curve_that_still_rises_is_said(folder):
+    curve = synthetic.curves(200, 8)
+    curve["tau_kPa"] = 12 * curve["displacement_mm"] + np.random.default_rng(1).normal(size=800)
+    synthetic.write_shear(folder / "200" / "shear.dat", curve)
+    assert "200 kPa: τ has no peak within the travel" in report(folder).read_text(encoding="utf-8")
+    assert summary(folder)["stresses"][1]["peak_at_boundary"]
+
+
+DAMAGED = [
+    ("200/shear.dat", "1 2 3\n", "shear.dat, line 1: 9 values are expected"),
+    ("200/discs.dump", "", "discs.dump: the file is empty"),
+    ("200/contacts.dump", "ITEM: ATOMS\n", "contacts.dump, line 1: 'ITEM: TIMESTEP' is expected"),
+    ("200/grains.dump", "", "grains.dump: the file is empty"),
+    ("200/consolidated.csv", "a,b\n1,?\n", "consolidated.csv, line 2: not a number"),
+    ("packed/packed.csv", "", "packed.csv: a header and a row"),
+]
+
+
+@pytest.mark.parametrize("name, text, message", DAMAGED, ids=[name for name, _, _ in DAMAGED])
+def test_damage_is_named_and_the_rest_is_reported(folder, capsys, name, text, message):
+    (folder / name).write_text(text, encoding="utf-8")
+    assert main(["report", str(folder)]) == 1
+    assert message in capsys.readouterr().err
+    assert message in (folder / "report.html").read_text(encoding="utf-8").replace("&#39;", "'")
+    assert summary(folder)["stresses"][0]["tau_peak_kPa"] == pytest.approx(55, abs=2)
+
+
+def test_missing_dumps_cost_the_pictures_only(folder, capsys):
+    for name in ("grains", "discs", "contacts"):
+        (folder / "100" / f"{name}.dump").unlink()
+    assert main(["report", str(folder)]) == 1
+    assert "dump: No such file" in capsys.readouterr().err
+    assert summary(folder)["stresses"][0]["grains_lost"] is None
+
+
+def test_nothing_to_report_on(folder, capsys):
+    for sigma in STRESSES:
+        (folder / f"{sigma:g}" / "shear.dat").unlink()
+    assert main(["report", str(folder)]) == 1
+    assert "nothing to report on yet" in capsys.readouterr().err
+    assert not (folder / "report.html").exists()
+
+
+@pytest.mark.parametrize("place", ["none", "."])
+def test_a_folder_without_a_run(tmp_path, capsys, place):
+    assert main(["report", str(tmp_path / place)]) == 1
+    assert "holds no run: there is no run.json in it" in capsys.readouterr().err
+
+
+def test_a_full_disk_keeps_the_earlier_report(folder, capsys, monkeypatch):
+    report(folder)
+    before = (folder / "summary.json").read_bytes()
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.fsync", full)
+    assert main(["report", str(folder)]) == 1
+    assert "No space left on device" in capsys.readouterr().err
+    assert (folder / "summary.json").read_bytes() == before
+    assert not list(folder.rglob("*.draft"))
+
+
+def test_dangerous_builds_are_summed_over_continuations(folder):
+    curve = synthetic.curves(100, 8)
+    curve["dangerous"][:] = np.concatenate([np.repeat([0, 2, 3], 100), np.repeat([0, 1], 250)])
+    synthetic.write_shear(folder / "100" / "shear.dat", curve)
+    assert read_results(folder).shears[0].dangerous_builds == 4
+
+
+@pytest.mark.parametrize(
+    "place, lost",
+    [
+        ((0.05, 0.05), 0),
+        ((-0.01, 0.08), 1),
+        ((0.101, 0.02), 0),
+        ((0.115, 0.02), 1),
+        ((0.05, -0.02), 1),
+        ((0.05, 0.12), 1),
+    ],
+)
+def test_a_grain_outside_the_box_is_lost(folder, place, lost):
+    path = folder / "100" / "grains.dump"
+    lines = path.read_text(encoding="utf-8").splitlines()
+    last = max(i for i, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
+    words = lines[last].split()
+    lines[last] = " ".join([*words[:2], *map(str, place), *words[4:]])
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    assert count_lost(folder / "100", 350, 0.1, 0.05) == lost
+    del lines[last]
+    lines[max(i for i, line in enumerate(lines) if "NUMBER OF" in line) + 1] = str(len(lines) - last)
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    assert count_lost(folder / "100", 350, 0.1, 0.05) == 1, "a grain that is gone"
+
+
+def test_frames_are_found_by_displacement(folder):
+    truth = synthetic.curves(100, 8)
+    film = Film(folder / "100", truth["step"], truth["displacement_mm"])
+    assert film.first().displacement == pytest.approx(0, abs=0.01)
+    assert film.at(4.4).displacement == pytest.approx(4, abs=0.01)
+    assert film.last().displacement == pytest.approx(8, abs=0.01)
+    branches = film.last().branches()
+    lengths = np.hypot(*(branches[:, 0] - branches[:, 1]).T)
+    assert len(branches) > 500 and np.ptp(lengths) < 0.1 * lengths.mean()
+
+
+def test_colours_of_the_paper_and_others():
+    chosen = colours([50.0, 100.0, 200.0, 300.0, 400.0, 450.5])
+    assert [chosen[s] for s in (100.0, 200.0, 300.0, 400.0)] == list(PAPER_COLOURS.values())
+    assert len(set(chosen.values())) == 6
+
+
+@pytest.mark.parametrize("value, text", [(None, "–"), (0.00008, "8e−5"), (-1.5, "−1.5"), (350, "350"), (2e6, "2e6")])
+def test_numbers_as_people_write_them(value, text):
+    assert number(value) == text
