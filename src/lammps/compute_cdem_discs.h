@@ -24,6 +24,7 @@
 namespace LAMMPS_NS {
 
 class FixCDEMIntegrate;
+class PairCDEM;
 
 class ComputeCDEMDiscs : public Compute {
 public:
@@ -34,6 +35,7 @@ public:
   double memory_usage() override;
 
 private:
+  const PairCDEM *pair = nullptr;
   const FixCDEMIntegrate *integrate = nullptr;
   Shearbox::LocalArray discs;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_cdem_energy.h"
 
+#include "fix_cdem_shape.h"
 #include "pair_cdem.h"
 
 #include "atom.h"
@@ -27,6 +28,9 @@ void ComputeCDEMEnergy::init() {
   pair = dynamic_cast<PairCDEM *>(force->pair);
   if (!pair)
     error->all(FLERR, "Compute cdem/energy {} needs pair_style cdem", id);
+  inertia.assign(1, 0);
+  for (int type = 1; type <= atom->ntypes; type++)
+    inertia.push_back(FixCDEMShape::shape(lmp, type).inertia());
 }
 
 void ComputeCDEMEnergy::compute_vector() {
@@ -38,7 +42,7 @@ void ComputeCDEMEnergy::compute_vector() {
     const double m = atom->rmass[i], r = atom->radius[i], omega = atom->omega[i][2];
     const double *const v = atom->v[i];
     mine[TRANSLATION] += 0.5 * m * (v[0] * v[0] + v[1] * v[1]);
-    mine[ROTATION] += 0.5 * (0.5 * m * r * r) * omega * omega;
+    mine[ROTATION] += 0.5 * (inertia[atom->type[i]] * m * r * r) * omega * omega;
   }
   mine[SPRINGS] = pair->elastic_energy();
   MPI_Allreduce(mine.data(), energy.data(), NPARTS, MPI_DOUBLE, MPI_SUM, world);

@@ -4,7 +4,7 @@
 // Global vector (J):
 //
 //   1 translation  sum of m v^2/2 over the group
-//   2 rotation     sum of I omega^2/2 over the group, I = m r^2/2
+//   2 rotation     sum of I omega^2/2 over the group, I = m r^2/2 for a disc, or as fix cdem/shape has it
 //   3 springs      sum of e_n^2/(2 k_n) + e_s^2/(2 k_s) over all contacts, whatever the group
 //
 // Scalar: the sum of the three. It is constant without damping and sliding, and while no wall moves, as far as the time
@@ -14,6 +14,7 @@
 #include "compute.h"
 
 #include <array>
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -31,6 +32,7 @@ private:
   enum Part { TRANSLATION, ROTATION, SPRINGS, NPARTS };
 
   const PairCDEM *pair = nullptr;
+  std::vector<double> inertia; // over mass radius^2, by type
   std::array<double, NPARTS> energy{};
 };
 

@@ -6,8 +6,9 @@
 //
 //   TRM = sum r |d theta| / sum sqrt(dx^2 + dy^2)
 //
-// r is the radius of the grain. A grain that rolls has 1; above 1 it spins, below 1 it slides. d theta, dx, dy are the
-// exact increments of each step, so the result does not depend on when it is asked for.
+// r is the radius of the grain, the circumscribed one if it has several discs. A disc that rolls has 1; above 1 it
+// spins, below 1 it slides. d theta, dx, dy are the exact increments of each step, so the result does not depend on
+// when it is asked for.
 //
 // Per-atom vector: TRM of the grain (no unit); 0 outside the group, and for a grain that never moved.
 // Scalar: its mean over the grains of the group that have moved, with the same bits for any number of ranks.

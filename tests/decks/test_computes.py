@@ -138,7 +138,7 @@ def contacts(done: Run) -> list[Frame]:
     frames = []
     for frame in done.dump("contacts.dump"):
         columns = dict(zip(FIELDS, frame.columns.values(), strict=True))
-        order = np.lexsort((columns["id2"], columns["id1"]))
+        order = np.lexsort([columns[name] for name in reversed(FIELDS[:4])])
         frames.append(Frame(frame.step, {name: column[order] for name, column in columns.items()}))
     return frames
 
@@ -188,24 +188,26 @@ def test_sliding_begins_at_the_coulomb_limit(tmp_path: Path, law: str) -> None:
 
 
 SIDE, SPACING = 8, 0.005
-CROWD_BOX = (0, SIDE * SPACING, 0, SIDE * SPACING)
+PERIOD = SIDE * SPACING
 # Two materials, as walls are smooth.
 CROWD_START = (
     START
     + """
 pair_coeff 1 2 ${kn} 0 ${hn} 0 ${phi}
+fix shape all cdem/shape type 1 ${shape} type 2 single density ${density} orient 7
 fix move grains cdem/integrate dt auto 2e-6
 """
 )
+SWELLING = {"single": 1.04, "triple": 1.3}  # of a grain's diameter beyond the spacing
 
 
-def crowd() -> list[Disc]:
-    """A periodic field of discs of two sizes that overlap, move and spin; its lowest row is wall."""
+def crowd(shape: str) -> list[Disc]:
+    """A periodic field of grains of two sizes that overlap, move and spin; its lowest row is wall."""
     discs = []
     for k in range(SIDE**2):
         row, column = divmod(k, SIDE)
         x, y = ((c + 0.5) * SPACING + 4e-5 * math.sin(7 * k + c) for c in (column, row))
-        diameter = SPACING * (1.04 if k % 3 else 1.01)
+        diameter = SPACING * (SWELLING[shape] if k % 3 else 1.01)
         if row == 0:
             discs.append(Disc(x, y, diameter, type=2))
         else:
@@ -213,34 +215,37 @@ def crowd() -> list[Disc]:
     return discs
 
 
-def run_crowd(deck: str, directory: Path, law: str, ranks: int) -> Run:
-    soft = {"kn": 1e6, "ks": 2.5e5, "phi": 5}  # so that some slide
+def run_crowd(deck: str, directory: Path, law: str, ranks: int, shape: str = "single") -> Run:
     return run(
-        CROWD_START + deck, directory, discs=crowd(), box=CROWD_BOX, law=law, ranks=ranks, bx="p", by="p", **soft
+        CROWD_START + deck, directory, discs=crowd(shape), box=(0, PERIOD, 0, PERIOD), ranks=ranks, bx="p", by="p",
+        law=law, shape=shape, kn=1e6, ks=2.5e5, phi=5,
     )  # fmt: skip
 
 
-def test_contacts_add_up_to_the_forces_on_the_grains(tmp_path: Path, law: str, ranks: int) -> None:
-    """Each contact once on any number of ranks; with the sum of all, force and torque on every grain and wall disc."""
-    deck = dump_contacts(100) + dump("custom", "grains", 100, "id radius fx fy tqz") + "run 300\n"
-    done = run_crowd(deck, tmp_path, law, ranks)
+@pytest.mark.parametrize("shape", SWELLING)
+def test_contacts_add_up_to_the_forces_on_the_grains(tmp_path: Path, law: str, ranks: int, shape: str) -> None:
+    """Each contact once on any number of ranks; all of them are the force and the torque on every grain and wall."""
+    deck = dump_contacts(30) + dump("custom", "grains", 30, "id x y fx fy tqz") + "run 90\n"
+    done = run_crowd(deck, tmp_path, law, ranks, shape)
     for grains, c in zip(done.dump("grains.dump"), contacts(done), strict=True):
-        pairs = list(zip(c["id1"], c["id2"], strict=True))
-        assert len(pairs) == len(set(pairs)) > SIDE**2
+        who = list(zip(*(c[name] for name in FIELDS[:4]), strict=True))
+        assert len(who) == len(set(who)) > SIDE**2 / 2
         assert (c["id1"] < c["id2"]).all()
         assert (c["id2"] > SIDE).all(), "walls act on each other"
-        total = {name: np.zeros(SIDE**2) for name in ("fx", "fy", "tqz")}
+        force = np.array([c["fx"], c["fy"]])
+        total = np.zeros((3, SIDE**2))
         for end, sign in (("id1", 1), ("id2", -1)):
             i = c[end].astype(int) - 1
-            np.add.at(total["fx"], i, sign * c["fx"])
-            np.add.at(total["fy"], i, sign * c["fy"])
-            np.add.at(total["tqz"], i, -c["ft"] * (grains["radius"][i] - c["overlap"] / 2))
-        largest = c["fn"].max()
-        for name, unit in (("fx", largest), ("fy", largest), ("tqz", largest * SPACING)):
-            assert total[name] == pytest.approx(grains[name], rel=0, abs=1e-12 * unit), name
+            arm = np.array([c["x"] - grains["x"][i], c["y"] - grains["y"][i]])
+            arm -= PERIOD * np.round(arm / PERIOD)
+            np.add.at(total.T, i, sign * np.array([*force, arm[0] * force[1] - arm[1] * force[0]]).T)
+        largest = np.abs(force).max()
+        for name, seen, unit in zip(("fx", "fy", "tqz"), total, (1, 1, SPACING), strict=True):
+            assert seen == pytest.approx(grains[name], rel=0, abs=1e-12 * unit * largest), name
     assert set(c["sliding"]) == {0, 1}
+    assert (len(set(zip(c["id1"], c["id2"], strict=True))) < len(who)) == (shape == "triple")
     if ranks > 1:
-        alone = contacts(run_crowd(deck, tmp_path / "alone", law, 1))[-1]
+        alone = contacts(run_crowd(deck, tmp_path / "alone", law, 1, shape))[-1]
         assert same_bits(c, alone, set(FIELDS) - {"x", "y"})  # the point may be in another periodic image
 
 
@@ -284,6 +289,36 @@ def test_discs_and_dumps(tmp_path: Path, ranks: int) -> None:
         assert head[8].split() == ["ITEM:", what, *names.split()]
 
 
+def test_a_spinning_clump(tmp_path: Path, ranks: int) -> None:
+    """Three touching discs of radius r = R/(1 + 2/sqrt(3)): their places, I = 11/6 m r^2, and R |omega|/|v| for TRM."""
+    radius, omega, v, t = 4e-3, 30.0, (0.3, -0.4), 0.01
+    r = radius / (1 + 2 / math.sqrt(3))
+    mass = 3 * DENSITY * math.pi * r**2
+    deck = """
+    fix       shape all cdem/shape type 1 triple type 2 single density ${density}
+    fix       move grains cdem/integrate dt any
+    timestep  1e-5
+    compute   trm grains cdem/trm
+    compute   energy all cdem/energy
+    compute   discs all cdem/discs
+    thermo_style custom step c_trm c_energy[*]
+    thermo_modify format float %.17g
+    """
+    deck += dump("local", "discs", 1000, "c_discs[*]") + "run 1000\n"
+    done = run(START + deck, tmp_path, discs=[Disc(0, 0, 2 * radius, *v, omega)], ranks=ranks)
+    table = np.array(sorted(zip(*done.dump("discs.dump")[-1].columns.values(), strict=True)))
+    expected = []
+    for k, degrees in enumerate([210, 330, 90]):
+        turned = math.radians(degrees) + omega * t
+        x, y = (v[0] * t + (radius - r) * math.cos(turned), v[1] * t + (radius - r) * math.sin(turned))
+        expected.append([1, k, x, y, r, omega * t, 1])
+    assert table == pytest.approx(np.array(expected), rel=1e-11)
+    spin = 11 / 6 * mass * r**2 * omega**2 / 2
+    seen = {name: column[-1] for name, column in done.thermo.items()}
+    assert seen["c_trm"] == pytest.approx(radius * omega / 0.5, rel=1e-11)
+    assert [seen[f"c_energy[{k}]"] for k in (1, 2, 3)] == pytest.approx([mass * 0.5**2 / 2, spin, 0], rel=1e-11)
+
+
 # --- energy ---------------------------------------------------------------------------------------
 
 
@@ -322,7 +357,7 @@ def test_energy_of_a_lossless_collision(tmp_path: Path, law: str, ranks: int) ->
 
 
 def test_elastic_energy_of_known_overlaps(tmp_path: Path, law: str, ranks: int) -> None:
-    """kn overlap^2/2 for every contact, counted once, here across a border of ranks; walls have none with each other."""
+    """kn overlap^2/2 for every contact, counted once, also across a border of ranks; walls have none."""
     kn, overlap, r = 1e6, 1e-5, 2e-3
     discs = [Disc((k - 1.5) * (2 * r - overlap), 0, 2 * r, type=t) for k, t in enumerate([1, 1, 2, 2, 1])]
     deck = "fix move grains cdem/integrate dt auto\ncompute energy all cdem/energy\n"
@@ -334,7 +369,8 @@ def test_elastic_energy_of_known_overlaps(tmp_path: Path, law: str, ranks: int) 
 # --- they only look -------------------------------------------------------------------------------
 
 
-def test_computes_do_not_change_the_trajectory(tmp_path: Path, law: str, ranks: int) -> None:
+@pytest.mark.parametrize("shape", SWELLING)
+def test_computes_do_not_change_the_trajectory(tmp_path: Path, law: str, ranks: int, shape: str) -> None:
     """The same bits with all of them at work at odd intervals, and with none."""
     watch = """
     compute trm all cdem/trm
@@ -348,7 +384,8 @@ def test_computes_do_not_change_the_trajectory(tmp_path: Path, law: str, ranks: 
     dump t all custom 3 trm.dump id c_trm
     """
     end = "run 250\nrun 250\n" + END
-    plain, watched = (run_crowd(deck, tmp_path / name, law, ranks) for name, deck in [("0", end), ("1", watch + end)])
+    plain = run_crowd(end, tmp_path / "plain", law, ranks, shape)
+    watched = run_crowd(watch + end, tmp_path / "watched", law, ranks, shape)
     assert same_bits(plain.end, watched.end)
 
 
@@ -366,7 +403,7 @@ REFUSED: dict[str, tuple[str, Sequence[str]]] = {
     "discs-argument": ("compute c all cdem/discs 7", ["Compute cdem/discs c: unknown argument 7"]),
     "energy-argument": ("compute c all cdem/energy 7", ["Compute cdem/energy c: unknown argument 7"]),
     "trm-unfixed": ("compute c all cdem/trm\nunfix CDEM_TRM_c\nrun 0", ["trm c: its fix CDEM_TRM_c is gone"]),
-    "discs-no-angles": (STOCK + "compute c all cdem/discs\nrun 0", ["discs c needs a fix cdem/integrate"]),
+    "discs-no-pair": (STOCK + "compute c all cdem/discs\nrun 0", ["discs c needs pair_style cdem"]),
     "energy-no-pair": (STOCK + "compute c all cdem/energy\nrun 0", ["energy c needs pair_style cdem"]),
     "contacts-no-pair": (STOCK + "compute c all cdem/contacts\nrun 0", ["contacts c needs pair_style cdem"]),
 }
