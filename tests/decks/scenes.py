@@ -41,3 +41,25 @@ def cloud(n: int, speed: float, seed: int = 1) -> list[Disc]:
 
 def shifted(discs: list[Disc], dx: float, dy: float = 0) -> list[Disc]:
     return [replace(d, x=d.x + dx, y=d.y + dy) for d in discs]
+
+
+def mini_box(seed: int = 1) -> tuple[list[Disc], Box]:
+    """Seven rows of grains, packed but not touching, with random velocities, between a floor (type 4), sides (2) and a
+    lid (3) of discs. See mini_box.in."""
+    random = np.random.default_rng(seed)
+    d, rows, columns = 4e-3, 7, 8
+    pitch = d * math.sqrt(3) / 2
+    half = columns * d / 2  # of the inner width
+    bottom, top = -0.01225, -0.01225 + d + (rows - 1) * pitch
+    discs = []
+    for j in range(rows):
+        for i in range(columns - j % 2):
+            x, y = (i + 0.5 + 0.5 * (j % 2)) * d - half, bottom + d / 2 + j * pitch
+            vx, vy, spin = random.uniform(-1, 1, 3)
+            discs.append(Disc(x, y, random.uniform(0.99, 1) * d, vx, vy, spin / d))
+    for i in range(columns + 1):
+        x = i * d - half
+        discs += [Disc(x, bottom - d / 2, d, type=4), Disc(x, top + d / 2, d, type=3)]
+    for j in range(-1, rows + 1):
+        discs += [Disc(side * (half + d / 2), bottom + j * d, d, type=2) for side in (-1, 1)]
+    return discs, (-0.03, 0.03, -0.03, 0.03)
