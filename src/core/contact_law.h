@@ -18,9 +18,23 @@ enum class Law { direct, incremental };
 // half step, with which the positions moved; the dashpots take the velocity at the time of the force.
 template <class T> struct alignas(8 * sizeof(T)) Disc {
   T x, y;
-  T vx_half, vy_half, omega_half;
-  T vx, vy, omega;
+  T vx_half, vy_half;
+  T vx, vy;
+  T omega_half, omega;
 };
+
+// Disc a relative to disc b: the difference of all, and the sums of the spins.
+template <class T> struct Relative {
+  Disc<T> difference;
+  T omega_half_sum, omega_sum;
+};
+
+inline Relative<double> relative(const Disc<double> &a, const Disc<double> &b) {
+  return {{a.x - b.x, a.y - b.y, a.vx_half - b.vx_half, a.vy_half - b.vy_half, a.vx - b.vx, a.vy - b.vy,
+           a.omega_half - b.omega_half, a.omega - b.omega},
+          a.omega_half + b.omega_half,
+          a.omega + b.omega};
+}
 
 // Constants of one pair of materials.
 struct Material {
@@ -48,9 +62,21 @@ template <class T> struct alignas(4 * sizeof(T)) Forces { T fx, fy, torque_a, to
 // Relative motion of the contact point of disc a against b, along n (from b to a) and t (n turned by +90 degrees).
 template <class T> struct Approach { T n, t; };
 
-template <class T> inline Approach<T> approach(T ux, T uy, T omega_a, T omega_b, T nx, T ny, T distance, T difference) {
-  const T spin = T(0.5) * (omega_a * (distance + difference) + omega_b * (distance - difference));
+// The discs' rims move with omega_a l_a + omega_b l_b against each other, l = (distance +- difference of radii)/2.
+template <class T>
+inline Approach<T> approach(T ux, T uy, T omega_sum, T omega_difference, T nx, T ny, T distance, T difference) {
+  const T spin = T(0.5) * (omega_sum * distance + omega_difference * difference);
   return {ux * nx + uy * ny, uy * nx - ux * ny - spin};
+}
+
+// The slip of a step over dt, for the spring. It was made about the distance and the normal of the middle of the step,
+// while `half` is taken about those of its end. The difference is of first order in dt; this removes it, and leaves
+// exactly 0 where the two discs turn as one body.
+template <class T>
+inline T slip_velocity(const Disc<T> &u, T omega_sum, const Approach<T> &half, T nx, T ny, T inverse, T half_dt) {
+  const T across = u.vy_half * nx - u.vx_half * ny;
+  const T turning = across * inverse;
+  return half.t + half_dt * (half.n - half_dt * across * turning) * (turning + T(0.5) * omega_sum);
 }
 
 // How much of a step's force a contact deserves that closed within the step before or opens within the step after.
@@ -75,19 +101,18 @@ template <class T> inline Edges<T> edges(T overlap, T un_half, T un, double dt) 
 // The force of a pair, and its history brought forward by the displacement of one step. `dt_history` is dt, or 0 to
 // evaluate the force of the present state without changing what the contact remembers.
 template <Law law, bool limit_damping, class T>
-[[gnu::always_inline]] inline Forces<T> contact_force(const Disc<T> &a, const Disc<T> &b, const Pair<T> &pair,
-                                                      const Material &m, double dt, double dt_history,
-                                                      History<T> &history) {
-  const T dx = a.x - b.x, dy = a.y - b.y;
+[[gnu::always_inline]] inline Forces<T> contact_force(const Relative<T> &of_a, const Pair<T> &pair, const Material &m,
+                                                      double dt, double dt_history, History<T> &history) {
+  const Disc<T> &u = of_a.difference;
+  const T dx = u.x, dy = u.y;
   const T distance = square_root(dx * dx + dy * dy), inverse = T(1) / distance;
   const T overlap = pair.radius_sum - distance;
   const auto touch = overlap > T(0);
   const T nx = dx * inverse, ny = dy * inverse;
 
-  const Approach<T> half = approach<T>(a.vx_half - b.vx_half, a.vy_half - b.vy_half, a.omega_half, b.omega_half, nx, ny,
-                                       distance, pair.radius_difference);
-  const Approach<T> now =
-      approach<T>(a.vx - b.vx, a.vy - b.vy, a.omega, b.omega, nx, ny, distance, pair.radius_difference);
+  const Approach<T> half =
+      approach<T>(u.vx_half, u.vy_half, of_a.omega_half_sum, u.omega_half, nx, ny, distance, pair.radius_difference);
+  const Approach<T> now = approach<T>(u.vx, u.vy, of_a.omega_sum, u.omega, nx, ny, distance, pair.radius_difference);
   const Edges<T> edge =
       edges<T>(select(touch, overlap, T(1)), select(touch, half.n, T(0)), select(touch, now.n, T(0)), dt);
 
@@ -100,8 +125,9 @@ template <Law law, bool limit_damping, class T>
   }
 
   const T limit = select(en > T(0), T(m.mu) * en, T(0));
-  const T trial = history.es - T(m.ks * dt_history) * half.t * edge.spring;
-  const auto slides = magnitude(trial) > limit;
+  const T slip = slip_velocity<T>(u, of_a.omega_half_sum, half, nx, ny, inverse, T(0.5 * dt));
+  const T trial = history.es - T(m.ks * dt_history) * slip * edge.spring;
+  const auto slides = magnitude(trial) >= limit;
   const T es = select(slides, with_sign_of(limit, trial), trial);
   history.es = select(touch, es, T(0));
 

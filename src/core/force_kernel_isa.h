@@ -6,6 +6,7 @@
 #include "rows.h"
 
 namespace cdem {
+namespace { // a copy for each instruction set, under no shared name
 
 #ifdef CDEM_HAS_SIMD
 using Widest = stdx::native_simd<double>;
@@ -23,19 +24,19 @@ void forces(const Disc<double> *discs, const PairColumns &p, const Material &mat
     History<T> history{load(p.es + k, T()), T(0)};
     if constexpr (law == Law::incremental)
       history.en = load(p.en + k, T());
-    store_forces(p.force + k,
-                 contact_force<law, limit_damping, T>(load_discs(discs, p.a + k, T()), load_discs(discs, p.b + k, T()),
-                                                      pair, material, dt, dt_history, history));
+    store_forces(p.force + k, contact_force<law, limit_damping, T>(load_relative(discs, p.a + k, p.b + k, T()), pair,
+                                                                   material, dt, dt_history, history));
     store(p.es + k, history.es);
     if constexpr (law == Law::incremental)
       store(p.en + k, history.en);
   }
 }
 
-inline ForceKernel widest_kernel(Law law, bool limit_damping) {
+ForceKernel widest_kernel(Law law, bool limit_damping) {
   if (law == Law::direct)
     return limit_damping ? forces<Law::direct, true, Widest> : forces<Law::direct, false, Widest>;
   return limit_damping ? forces<Law::incremental, true, Widest> : forces<Law::incremental, false, Widest>;
 }
 
+} // namespace
 } // namespace cdem

@@ -245,17 +245,35 @@ private:
       const Member &d = members[k];
       const double offset = std::hypot(d.x, d.y), towards = std::atan2(d.y, d.x);
       for (const Arc &arc : exposed(k, d.r)) {
-        const double margin = arc.to - arc.from < 2 * M_PI ? M_PI / 6 : 0;
-        const Powers c(arc.from - margin - towards, arc.to + margin - towards);
-        const double angle = arc.to - arc.from + 2 * margin;
-        surface.neighbours += 3 / M_PI * angle;
-        surface.cos2 += 3 / M_PI * (std::sin(2 * (arc.to + margin)) - std::sin(2 * (arc.from - margin))) / 2;
-        surface.sin2 -= 3 / M_PI * (std::cos(2 * (arc.to + margin)) - std::cos(2 * (arc.from - margin))) / 2;
-        surface.normal += 3 / M_PI * offset * offset * (angle - c.c2);
-        surface.tangential += 3 / M_PI * (d.r * d.r * angle + 2 * d.r * offset * c.c1 + offset * offset * c.c2);
+        const Neighbours n(arc);
+        const double along = n.cosine(1, towards), twice = n.cosine(2, towards);
+        surface.neighbours += n.count;
+        surface.cos2 += n.cosine(2, 0);
+        surface.sin2 += n.cosine(2, M_PI / 4);
+        surface.normal += offset * offset * (n.count - twice) / 2;
+        surface.tangential += d.r * d.r * n.count + 2 * d.r * offset * along + offset * offset * (n.count + twice) / 2;
       }
     }
   }
+
+  // Neighbours at 60 degrees from each other, from one end of an arc to the other; on a full turn, one less. If their
+  // number is not whole, the sums are those of an even spread, which for whole numbers are the same.
+  struct Neighbours {
+    double from, to, count;
+
+    explicit Neighbours(const Arc &arc) {
+      const double margin = arc.to - arc.from < 2 * M_PI ? M_PI / 6 : 0;
+      from = arc.from - margin;
+      to = arc.to + margin;
+      count = 3 / M_PI * (to - from);
+    }
+
+    // Sum of cos(n (phi - zero)). An integral over the arc takes 60 degrees for each neighbour, which weakens it.
+    double cosine(int n, double zero) const {
+      const double weakened = std::sin(n * M_PI / 6) / (n * M_PI / 6);
+      return 3 / M_PI * (std::sin(n * (to - zero)) - std::sin(n * (from - zero))) / n / weakened;
+    }
+  };
 
   std::vector<Member> members;
   double unit_area, unit_inertia;

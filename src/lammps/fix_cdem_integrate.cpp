@@ -93,12 +93,13 @@ void FixCDEMIntegrate::init() {
   inertia.assign(1, 0);
   for (int type = 1; type <= atom->ntypes; type++)
     inertia.push_back(FixCDEMShape::shape(lmp, type).inertia());
-  limit = scene_limit();
+  limit = scene_minimum(cdem::step_limit);
   apply_step_rule();
+  reset_dt();
 }
 
-// The smallest limit over all grains, each as if surrounded by its like.
-double FixCDEMIntegrate::scene_limit() const {
+// The smallest value over all grains, each as if surrounded by its like.
+template <class Value> double FixCDEMIntegrate::scene_minimum(Value value) const {
   const auto *pair = static_cast<PairCDEM *>(force->pair);
   double smallest = INFINITY;
   for (int i = 0; i < atom->nlocal; i++) {
@@ -106,11 +107,16 @@ double FixCDEMIntegrate::scene_limit() const {
       continue;
     const cdem::GrainShape &shape = FixCDEMShape::shape(lmp, atom->type[i]);
     for (int other = 1; other <= atom->ntypes; other++)
-      smallest = std::min(smallest, cdem::step_limit(pair->material(atom->type[i], other), shape, atom->rmass[i]));
+      smallest = std::min(smallest, value(pair->material(atom->type[i], other), shape, atom->rmass[i]));
   }
   double all;
   MPI_Allreduce(&smallest, &all, 1, MPI_DOUBLE, MPI_MIN, world);
   return all;
+}
+
+void FixCDEMIntegrate::reset_dt() {
+  const double dt = update->dt;
+  weight = scene_minimum([dt](const auto &...grain) { return cdem::prediction_weight(grain..., dt); });
 }
 
 void FixCDEMIntegrate::apply_step_rule() {
@@ -138,11 +144,6 @@ void FixCDEMIntegrate::apply_step_rule() {
 
 bool FixCDEMIntegrate::knows_acceleration(int i) const {
   return valid_step == update->ntimestep && !std::isnan(state[i][AX]);
-}
-
-double FixCDEMIntegrate::prediction_weight() const {
-  const double ratio = update->dt / limit;
-  return ratio < 1 ? 1 - ratio * ratio : 0;
 }
 
 void FixCDEMIntegrate::take_acceleration(int i) {

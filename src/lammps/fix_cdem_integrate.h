@@ -32,6 +32,7 @@ public:
 
   int setmask() override;
   void init() override;
+  void reset_dt() override;
   void setup(int) override;
   void post_neighbor() override;
   void initial_integrate(int) override;
@@ -56,16 +57,15 @@ public:
   bool is_free(int i) const { return atom->mask[i] & groupbit; }
   // Whether the stored acceleration belongs to the present state; else the first step takes it from the forces.
   bool knows_acceleration(int i) const;
-  // Share of the half step by which the dashpots' velocity is carried forward: second order in time, and within the
-  // stability limit of the scheme without it.
-  double prediction_weight() const;
+  // Share of half a step by which the dashpots' velocity is carried forward, see core/stability.h.
+  double prediction_weight() const { return weight; }
 
   double **state = nullptr; // NCOLUMNS per atom
 
 private:
   enum class Step { check, any, automatic };
 
-  double scene_limit() const;
+  template <class Value> double scene_minimum(Value) const;
   void apply_step_rule();
   void take_acceleration(int i);
 
@@ -78,6 +78,7 @@ private:
   Step rule = Step::check;
   double max_step;
   double limit = 0;
+  double weight = 0;
   std::vector<double> inertia; // over mass radius^2, by type
   std::vector<int> to_start;   // grains whose acceleration was not known at setup
   bigint valid_step = -1;      // the step at whose end `state` was written

@@ -207,7 +207,7 @@ void PairCDEM::fill_disc_rows(double forward) {
   rows.resize(nall);
   for (int i = 0; i < nall; i++) {
     const double *const x = atom->x[i], *const v = atom->v[i], omega = atom->omega[i][2];
-    rows[i] = {x[0], x[1], v[0], v[1], omega, v[0], v[1], omega};
+    rows[i] = {x[0], x[1], v[0], v[1], v[0], v[1], omega, omega};
     if (forward == 0)
       continue;
     const double *const a = integrate->state[i];
@@ -240,9 +240,9 @@ void PairCDEM::fill_clump_rows(double forward) {
                 x[1] + oy,
                 v[0] - omega * oy + inward * ox,
                 v[1] + omega * ox + inward * oy,
-                omega,
                 vx - spin * oy,
                 vy + spin * ox,
+                omega,
                 spin};
     }
   }
@@ -357,12 +357,12 @@ void PairCDEM::recall_history(int k) {
 }
 
 void PairCDEM::sum_disc_forces() {
-  for (int i = 0; i < atom->nlocal; i++) {
-    const cdem::DiscForce sum = sums(pairs, i);
-    atom->f[i][0] += sum.fx;
-    atom->f[i][1] += sum.fy;
-    atom->torque[i][2] += sum.torque;
-  }
+  double *const f = atom->f[0], *const torque = atom->torque[0];
+  sums.for_all(pairs, [=](int i, const cdem::DiscForce &sum) {
+    f[3 * i] += sum.fx;
+    f[3 * i + 1] += sum.fy;
+    torque[3 * i + 2] += sum.torque;
+  });
 }
 
 void PairCDEM::sum_clump_forces() {

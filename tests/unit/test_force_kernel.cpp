@@ -56,8 +56,8 @@ template <Law law, bool limit> void plain(Scene &s) {
     DiscPairs &p = s.pairs;
     const Pair<double> pair{p.radius_sum[k], p.radius_difference[k], p.root_mass[k]};
     History<double> history{p.es[k], p.en[k]};
-    p.force[k] = contact_force<law, limit, double>(s.discs[p.a[k]], s.discs[p.b[k]], pair, p.segments[0].material, DT,
-                                                   DT, history);
+    p.force[k] = contact_force<law, limit, double>(relative(s.discs[p.a[k]], s.discs[p.b[k]]), pair,
+                                                   p.segments[0].material, DT, DT, history);
     p.es[k] = history.es;
     if (law == Law::incremental)
       p.en[k] = history.en;
