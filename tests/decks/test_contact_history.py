@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What a contact remembers lasts as long as the contact: not longer, and not less when grains cross a border."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from engine import Disc, Frame, run
+from scenes import shifted
+
+BOUNCE = """
+include ${decks}/start.in
+fix weight grains gravity 2000 vector 0 -1 0
+fix move grains cdem/integrate
+timestep 2e-7
+dump all grains custom 1 path.dump id x y vx vy omegaz fx fy tqz
+dump_modify all format float %.17g
+run ${steps}
+"""
+STATE = ("x", "y", "vx", "vy", "omegaz", "fx", "fy", "tqz")
+
+
+@pytest.mark.parametrize("cut", ["no", "yes"])
+def test_contact_starts_afresh(tmp_path: Path, law: str, ranks: int, cut: str) -> None:
+    """A disc falls obliquely on another and bounces twice, with no rebuild of the neighbour list between. The second
+    impact is the same, to the bit, as that of a disc which starts in the flight between the two, without a past."""
+    grain, floor = Disc(1e-3, 3.8731e-3, vx=0.05, vy=-0.05, omega=10), Disc(0, 0, type=2)
+    options = {"law": law, "cut": cut, "ranks": ranks, "skin": 1e-3}
+    whole = run(BOUNCE, tmp_path / "whole", discs=[grain, floor], steps=600, **options)
+    assert "Neighbor list builds = 0" in whole.log
+    path = whole.dump("path.dump")
+    touching = np.array([frame["tqz"][0] != 0 for frame in path])
+    starts = np.flatnonzero(~touching[:-1] & touching[1:])
+    ends = np.flatnonzero(touching[:-1] & ~touching[1:])
+    assert len(starts) >= 2, "there is no second impact"
+
+    between = path[(ends[0] + starts[1]) // 2]
+    x, y, vx, vy, omega = (between[name][0] for name in STATE[:5])
+    fresh = replace(grain, x=x, y=y, vx=vx, vy=vy, omega=omega)
+    alone = run(BOUNCE, tmp_path / "alone", discs=[fresh, floor], steps=600 - between.step, **options).dump("path.dump")
+    for a, b in zip(path[between.step :], alone, strict=True):
+        assert [a[name][0] for name in STATE] == [b[name][0] for name in STATE], f"step {a.step}"
+
+
+COLLIDE = """
+include ${decks}/start.in
+fix move grains cdem/integrate
+timestep 1e-7
+run ${steps}
+include ${decks}/end.in
+"""
+
+
+def oblique_pair(drift: float) -> list[Disc]:
+    """Two discs of unequal size about to collide in the origin; both drift along x."""
+    left, right = 4e-3, 3e-3
+    return [
+        Disc(-left / 2, 0, left, vx=drift + 0.1, vy=-0.02, omega=5),
+        Disc(right / 2 + 1e-7, 1e-4, right, vx=drift - 0.1, vy=0.03),
+    ]
+
+
+def motion(state: Frame) -> np.ndarray:
+    return np.array([state["vx"], state["vy"], state["omegaz"]])
+
+
+@pytest.mark.parametrize("shift", [0.02, -0.0201, 0.6], ids=["at-the-border", "beyond-it", "many-boxes-away"])
+def test_collision_across_a_periodic_border(tmp_path: Path, law: str, ranks: int, shift: float) -> None:
+    """While they touch, the discs pass the border of the box and the neighbour list is rebuilt again and again: the same
+    as in the middle of a box, within the round-off of the overlap, 3e-18/1e-7."""
+    options = {"law": law, "steps": 100, "skin": 2e-6, "box": (-0.02, 0.02, -0.02, 0.02)}
+    inside = run(COLLIDE, tmp_path / "inside", discs=oblique_pair(1.0), **options)
+    across = run(COLLIDE, tmp_path / "across", discs=shifted(oblique_pair(1.0), shift), ranks=ranks, bx="p", **options)
+    builds = next(line for line in across.log.splitlines() if line.startswith("Neighbor list builds"))
+    assert int(builds.split("=")[1]) >= 5
+    assert np.all(inside.end["omegaz"] != [5, 0]), "no friction"
+    assert motion(across.end) == pytest.approx(motion(inside.end), rel=1e-8)
+
+
+def test_collision_across_ranks(tmp_path: Path, law: str, ranks: int) -> None:
+    """The same between ranks, whose border passes through the contact: here to the bit."""
+    options = {"law": law, "steps": 100, "skin": 2e-6}
+    alone = run(COLLIDE, tmp_path / "alone", discs=oblique_pair(1.0), **options)
+    out = run(COLLIDE, tmp_path / "ranks", discs=oblique_pair(1.0), ranks=ranks, **options)
+    assert np.array_equal(motion(out.end), motion(alone.end))
