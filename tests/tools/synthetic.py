@@ -32,7 +32,7 @@ def curves(sigma: float, travel: float, rows: int = 800, seed: int = 1) -> dict[
     rng = np.random.default_rng(seed + int(sigma))
     s = (np.arange(rows) + 0.5) * travel / rows
     x = 8 * s / travel
-    tau = softening(x, 0.5 * sigma + 5, 2.5, 0.42 * sigma) + correlated_noise(rng, rows, 0.02 * sigma, 8)
+    tau = softening(x, 0.5 * sigma + 5, 2.5, 0.3 * sigma) + correlated_noise(rng, rows, 0.02 * sigma, 8)
     lid = 0.5 / (1 + np.exp(-(x - 1.6) / 0.5)) - 0.5 / (1 + np.exp(1.6 / 0.5)) - 0.03 * x * np.exp(-x)
     return {
         "step": (np.arange(rows) + 1) * STEPS_PER_ROW,

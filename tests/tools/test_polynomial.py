@@ -69,8 +69,8 @@ def test_same_data_same_result():
 
 
 def test_too_few_rows_are_refused():
-    with pytest.raises(ValueError, match="7 rows are too few"):
-        fit_curve(np.arange(7.0), np.arange(7.0))
+    with pytest.raises(ValueError, match="5 rows are too few"):
+        fit_curve(np.arange(5.0), np.arange(5.0))
 
 
 @pytest.mark.parametrize("length, tolerance", [(1, 0.2), (10, 3)])
@@ -87,6 +87,17 @@ def test_correlation_length_of_white_noise_and_of_nothing():
 
 def test_block_averages_drop_the_rest_at_the_start():
     assert block_averages(np.arange(7.0), 3).tolist() == [2.0, 5.0]
+
+
+def test_through_the_origin():
+    s = displacement()
+    noise = correlated_noise(np.random.default_rng(1), ROWS, 0.01, 1)
+    fit = fit_curve(s, 0.3 * s - 0.02 * s**2 + noise, through_origin=True)
+    assert fit.series(0) == pytest.approx(0, abs=1e-12)
+    assert fit.error(0.0)[0] == pytest.approx(0, abs=1e-12)
+    assert fit.degree <= 3
+    assert fit.series(s) == pytest.approx(0.3 * s - 0.02 * s**2, abs=0.01)
+    assert all(abs(replica(0)) < 1e-12 for replica in fit.replicas(20))
 
 
 def test_turning_points_are_maxima_only():

@@ -12,7 +12,7 @@ import synthetic
 
 from shearbox_tools.cli import main
 from shearbox_tools.models import INPUT, all_models, find_model, read_variables
-from shearbox_tools.report import number, report
+from shearbox_tools.report import minus, number, report
 from shearbox_tools.request import Request
 from shearbox_tools.results import read_results
 from shearbox_tools.specimen import Film, count_lost
@@ -254,3 +254,8 @@ def test_colours_of_the_paper_and_others():
 @pytest.mark.parametrize("value, text", [(None, "–"), (0.00008, "8e−5"), (-1.5, "−1.5"), (350, "350"), (2e6, "2e6")])
 def test_numbers_as_people_write_them(value, text):
     assert number(value) == text
+
+
+@pytest.mark.parametrize("text, shown", [("-0.00", "0.00"), ("+0.00", "0.00"), ("-0.01", "−0.01"), ("+1.5", "+1.5")])
+def test_signs(text, shown):
+    assert minus(text) == shown

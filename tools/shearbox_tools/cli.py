@@ -30,12 +30,15 @@ def main(arguments: list[str] | None = None) -> int:
     except ShearboxError as error:
         print(f"shearbox: {error}", file=sys.stderr)
         return error.code
-    except KeyboardInterrupt as interruption:
-        print(f"shearbox: {_how_to_go_on(options)}", file=sys.stderr)
-        return 128 + (interruption.args[0] if interruption.args else signal.SIGINT)
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the reader left: nobody to tell
         return 1
+    except OSError as error:  # disk full, no more memory or processes, ...
+        print(f"shearbox: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt as interruption:
+        print(f"shearbox: {_how_to_go_on(options)}", file=sys.stderr)
+        return 128 + (interruption.args[0] if interruption.args else signal.SIGINT)
 
 
 def make_parser() -> argparse.ArgumentParser:

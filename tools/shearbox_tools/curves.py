@@ -50,7 +50,7 @@ def _strength(results: Results) -> Figure:
             color=_palette(results)[shear.sigma], mfc="white" if shear.peak.at_boundary else None, zorder=3,
         )  # fmt: skip
     axes.set_xlim(0, end)
-    axes.set_ylim(bottom=min(0, axes.get_ylim()[0]))
+    axes.set_ylim(0, 1.25 * max(shear.peak.value + shear.peak.value_error for shear in results.shears))
     return figure
 
 
@@ -61,7 +61,7 @@ def _draw_line(axes: Axes, line: Line, end: float) -> None:
         f"τ = c + σ tan φ\nφ = {line.phi_deg:.1f} ± {line.phi_half_width_deg:.1f}°\n"
         f"c = {line.c_kPa:.1f} ± {line.c_half_width_kPa:.1f} kPa"
     )
-    axes.plot(sigma, tau, color="#555d66", lw=1.4, label=label)
+    axes.plot(sigma, tau, color="#555d66", lw=1.4, label=label.replace("-", "−"))
     axes.fill_between(sigma, tau - band, tau + band, color="#555d66", alpha=0.13, lw=0, label="95 % band")
     axes.legend(loc="upper left")
 

@@ -17,7 +17,7 @@ OUTLINE_COLOUR = "#4a525a"
 OUTLINE = 0.05  # of a disc's radius
 WIDEST_LINE = 4.5  # points
 ROTATIONS = colormaps["RdBu_r"]
-PANEL_HEIGHT = 2.5  # inches
+PANEL_HEIGHT = 3.0  # inches
 
 
 def draw_specimen(film: Film, peak: float) -> str:
@@ -54,13 +54,12 @@ def _rotation_scale(moment: Moment) -> Normalize:
 
 
 def _extent(moments: list[Moment]) -> tuple[np.ndarray, np.ndarray]:
-    """(2,) lowest and highest corner of all discs, m."""
-    places = [np.column_stack([m.discs["x"], m.discs["y"]]) for m in moments]
-    radii = [m.discs["radius"][:, None] for m in moments]
-    return (
-        np.min([np.min(p - r, axis=0) for p, r in zip(places, radii)], axis=0),
-        np.max([np.max(p + r, axis=0) for p, r in zip(places, radii)], axis=0),
-    )
+    """(2,) lowest and highest corner of what is shown, m: all discs, but of the walls above the lid a little only."""
+    x, y, radius = (np.concatenate([m.discs[name] for m in moments]) for name in ("x", "y", "radius"))
+    walls = np.concatenate([m.walls for m in moments])
+    top = np.max((y + radius)[~walls]) + 4 * radius[walls].max()
+    low = np.array([np.min(x - radius), np.min(y - radius)])
+    return low, np.array([np.max(x + radius), min(top, np.max(y + radius))])
 
 
 def _draw_discs(axes: Axes, moment: Moment, colours: np.ndarray, outline: str = OUTLINE_COLOUR) -> None:

@@ -110,10 +110,8 @@ class Dump:
         try:
             return int(lines[index])
         except ValueError as error:
-            line = self._line_number(offset) + index
-            raise ShearboxError(
-                f"{self.path}, line {line}: a whole number is expected, not {short(lines[index].decode(errors='replace'))}"
-            ) from error
+            line, text = self._line_number(offset) + index, lines[index].decode(errors="replace")
+            raise ShearboxError(f"{self.path}, line {line}: a whole number is expected, not {short(text)}") from error
 
     def _order(self, head: _Head) -> list[int]:
         if all(name in head.names for name in self.columns):

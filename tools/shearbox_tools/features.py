@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .peak import Peak
+from .peak import Peak, turning_points
 from .polynomial import Fit
 from .strength import Line
 
@@ -51,11 +51,15 @@ def dilates(lid: Fit, peak: Peak) -> Verdict:
 
 
 def steepest_dilatancy(lid: Fit) -> tuple[float, float]:
-    """Position (mm) and rate (mm/mm) of the steepest rise of the lid, away from the ends of the fit."""
-    inside = np.linspace(lid.end_zone, lid.span - lid.end_zone, 801)
-    rates = lid.series.deriv()(inside)
-    steepest = int(np.argmax(rates))
-    return float(inside[steepest]), float(rates[steepest])
+    """Position (mm) and rate (mm/mm) of the steepest rise of the lid, away from the ends of the fit.
+
+    The highest turning point of the rate; where it has none, the greater of its values at the two end zones.
+    """
+    rate = lid.series.deriv()
+    ends = (lid.end_zone, lid.span - lid.end_zone)
+    inside = [s for s in turning_points(rate) if ends[0] < s < ends[1]]
+    position = max(inside or ends, key=rate)
+    return float(position), float(rate(position))
 
 
 def peak_at_steepest(tau: Fit, peak: Peak, lid: Fit) -> Verdict:

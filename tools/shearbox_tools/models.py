@@ -11,7 +11,9 @@ from .errors import InputError, ShearboxError
 ROOT = Path(__file__).resolve().parents[2]
 INPUT = ROOT / "input"
 
-_VARIABLE = re.compile(r"^\s*variable\s+(\S+)\s+(?:equal|index|string|internal)\s+([^#\n]*?)\s*(?:#.*)?$", re.MULTILINE)
+_VARIABLE = re.compile(
+    r"^\s*variable\s+(\S+)\s+(?:equal|index|string|internal)\s+([^#\n]*?)\s*(?:#\s*(.*?)\s*)?$", re.MULTILINE
+)
 _NUMBERS = ("width", "half_height", "dmin", "dmax", "power", "ngrains")
 
 
@@ -36,11 +38,12 @@ class Model:
 
 def read_variables(path: Path) -> dict[str, str]:
     """Names and values of the variables that a deck defines, as text."""
-    try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise ShearboxError(f"{path}: {error.strerror}") from error
-    return {name: value.strip("\"'") for name, value in _VARIABLE.findall(text)}
+    return {name: value.strip("\"'") for name, value, _ in _definitions(path)}
+
+
+def read_comments(path: Path) -> dict[str, str]:
+    """Names of the variables that a deck defines, and what it says about them."""
+    return {name: comment for name, _, comment in _definitions(path)}
 
 
 def read_model(path: Path) -> Model:
@@ -78,3 +81,10 @@ def find_model(name: str, models: list[Model]) -> Model:
 
 def _table_order(model: Model) -> tuple[bool, bool, float, float]:
     return (model.dmin == model.dmax, model.shape != "single", -model.dmax, model.width)
+
+
+def _definitions(path: Path) -> list[tuple[str, str, str]]:
+    try:
+        return _VARIABLE.findall(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ShearboxError(f"{path}: {error.strerror}") from error

@@ -13,6 +13,7 @@ from .display import duration
 from .drawing import draw_specimen
 from .errors import ShearboxError
 from .files import write_json, write_text
+from .models import INPUT, read_comments
 from .readers import SHEAR_COLUMNS
 from .results import Results, Shear, read_results
 from .specimen import Film
@@ -78,12 +79,26 @@ def _page(results: Results, summary: dict[str, Any], pictures: dict[str, str]) -
     )
     environment.filters["duration"] = duration
     environment.filters["number"] = number
+    environment.filters["minus"] = minus
     return environment.get_template("report.html.j2").render(
         summary=summary, shears=results.shears, line=results.line, pictures=pictures, logs=phase_logs(results),
-        consolidations=results.consolidations,
+        consolidations=results.consolidations, comments=_comments(),
     )  # fmt: skip
+
+
+def _comments() -> dict[str, str]:
+    """What the deck says about its parameters; the page goes without when the deck is not there."""
+    try:
+        return read_comments(INPUT / "parameters.in")
+    except ShearboxError:
+        return {}
 
 
 def number(value: float | None, digits: int = 4) -> str:
     """A number as people write it; a dash for what is not known."""
-    return "–" if value is None else f"{value:.{digits}g}".replace("e-0", "e-").replace("e+0", "e").replace("-", "−")
+    return "–" if value is None else minus(f"{value:.{digits}g}".replace("e-0", "e-").replace("e+0", "e"))
+
+
+def minus(text: str) -> str:
+    """The text with a minus sign for its hyphen, and none before a zero."""
+    return text.lstrip("+-") if not text.strip("+-0.") else text.replace("-", "−")

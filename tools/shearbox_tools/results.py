@@ -104,7 +104,10 @@ def read_results(folder: Path) -> Results:
             if not shear.complete:
                 notes.append(f"{sigma:g} kPa has reached {shear.reached:.2f} mm only")
             if shear.peak.at_boundary:
-                notes.append(f"{sigma:g} kPa: τ has no peak within the travel; its greatest value is at the end of it")
+                where = f"{shear.peak.position:.2f} mm"
+                notes.append(
+                    f"{sigma:g} kPa: τ has no peak within the travel; its greatest value, at {where}, is taken"
+                )
     return Results(folder, record["identity"], packing, consolidations, shears, problems, notes)
 
 
@@ -124,7 +127,8 @@ def _read_shear(
     if len(data["step"]) < FEWEST_ROWS:
         notes.append(f"{sigma:g} kPa has {len(data['step'])} rows of data only, too few to fit a curve")
         return None
-    tau, lid = (fit_curve(data["displacement_mm"], data[name]) for name in ("tau_kPa", "lid_mm"))
+    tau = fit_curve(data["displacement_mm"], data["tau_kPa"])
+    lid = fit_curve(data["displacement_mm"], data["lid_mm"], through_origin=True)
     lost = _lost(place, identity, problems)
     return Shear(sigma, place, data, (place / "shear.done").exists(), tau, lid, find_peak(tau), lost)
 
