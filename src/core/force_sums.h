@@ -57,14 +57,16 @@ private:
     const int *begin(int d) const { return pairs.data() + first[d]; }
     const int *end(int d) const { return pairs.data() + first[d + 1]; }
 
-    // A row of forces is summed as one vector; the two sums that a role has no use for come along.
+    // A row of forces is summed as two vectors; the two sums that a role has no use for come along.
     Forces<double> sum(const DiscPairs &p, int d) const {
-      using Row = double __attribute__((vector_size(sizeof(Forces<double>)), may_alias));
-      const auto *const rows = reinterpret_cast<const Row *>(p.force.data());
-      Row total{};
-      for (const int *k = begin(d); k != end(d); ++k)
-        total += rows[*k];
-      return {total[0], total[1], total[2], total[3]};
+      using Two = double __attribute__((vector_size(2 * sizeof(double)), may_alias));
+      const auto *const halves = reinterpret_cast<const Two *>(p.force.data());
+      Two force{}, torque{};
+      for (const int *k = begin(d), *last = end(d); k != last; ++k) {
+        force += halves[2 * *k];
+        torque += halves[2 * *k + 1];
+      }
+      return {force[0], force[1], torque[0], torque[1]};
     }
 
     void build(const DiscPairs &p, const Column<int> &disc_of_pair, int n) {
