@@ -77,7 +77,7 @@ def test_sliding_ends_in_rolling(tmp_path: Path, law: str, ranks: int, start: st
     overlap = Disc(0, 0).mass * g / kn
     y, r = Disc(0, 0).radius - overlap, Disc(0, 0).radius
     disc = Disc(0, y, vx=v0) if start == "thrown" else Disc(0, y, omega=-v0 / r)  # forward is a negative spin
-    dt, steps = 1e-6, 6000
+    dt, steps = 2e-6, 3000
     out = run(
         SLIDE, tmp_path, discs=[disc, FLOOR], box=BOX, ranks=ranks, law=law, kn=kn, ks=ks, hs=hs, g=g, dt=dt, steps=steps,
     )  # fmt: skip

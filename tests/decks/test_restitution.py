@@ -85,9 +85,10 @@ def restitution_without_pull(h: float) -> float:
     return math.exp(-h / root * (math.pi - math.atan2(2 * h * root, 1 - 2 * h * h)))
 
 
-# Median over the phases. The error is second order in the step: measured at 40 steps a contact are 2e-6, 4.4e-4, 2.2e-3
-# and 1.1e-2, due to the half step at either end of the contact, in which the dashpot's force is only estimated.
-TOLERANCE = {0: 1e-5, 0.05: 6e-4, 0.215: 3e-3, 0.5: 1.5e-2}
+# Median over the phases. The error is second order in the step: at 40 steps a contact 3e-6, 4.4e-4, 2.1e-3 and 5.5e-3 for
+# e, due to the two half steps at either end, in which the dashpot's force is only estimated; and 2.6e-4, 2.4e-4, 9e-5 and
+# 1.6e-3 for the duration, of which (pi/40)^2/24 = 2.6e-4 is velocity Verlet's own, whose frequency is too high.
+TOLERANCE = {0: 1e-5, 0.05: 6e-4, 0.215: 3e-3, 0.5: 8e-3}
 
 
 @pytest.mark.parametrize("h", TOLERANCE)
@@ -95,8 +96,9 @@ def test_restitution_and_duration(tmp_path: Path, law: str, ranks: int, h: float
     measured, durations = collide(tmp_path, h, 40, law=law, ranks=ranks)
     for kind in KINDS:
         assert np.median(measured[kind]) == pytest.approx(restitution(h), rel=TOLERANCE[h]), kind
-        # Second order, too: 2.6e-4 is what velocity Verlet has by itself, (pi/40)^2/24, as its frequency is too high.
-        assert np.median(durations[kind]) == pytest.approx(math.pi / (W0 * math.sqrt(1 - h * h)), rel=5e-4), kind
+        assert np.median(durations[kind]) == pytest.approx(
+            math.pi / (W0 * math.sqrt(1 - h * h)), rel=2e-3 if h == 0.5 else 4e-4
+        ), kind
 
 
 @pytest.mark.parametrize("h", [0.215, 0.5])
@@ -106,7 +108,7 @@ def test_restitution_if_the_dashpot_may_not_pull(tmp_path: Path, law: str, ranks
         assert np.median(measured[kind]) == pytest.approx(restitution_without_pull(h), rel=TOLERANCE[h]), kind
 
 
-@pytest.mark.parametrize("h", [0.05, 0.215])
+@pytest.mark.parametrize("h", [0.05, 0.215, 0.5])
 def test_restitution_is_second_order_in_the_time_step(tmp_path: Path, law: str, h: float) -> None:
     """Errors fall by 4 when the step is halved; 3.5 leaves room for the next order, a first-order scheme has 2."""
     error = {}
@@ -115,7 +117,8 @@ def test_restitution_is_second_order_in_the_time_step(tmp_path: Path, law: str, 
         error[n] = abs(np.median(measured["equal"]) / restitution(h) - 1)
     assert error[20] / error[40] > 3.5
     assert error[40] / error[80] > 3.5
-    assert error[20] < 0.012  # stock LAMMPS: 0.034 for h = 0.215
+    if h == 0.215:
+        assert error[20] < 0.01  # stock LAMMPS: 0.034
 
 
 def test_rare_phases_are_first_order(tmp_path: Path, law: str) -> None:
