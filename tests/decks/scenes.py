@@ -7,7 +7,7 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from engine import Disc
+from engine import Disc, Frame
 
 Box = tuple[float, float, float, float]
 
@@ -63,3 +63,9 @@ def mini_box(seed: int = 1) -> tuple[list[Disc], Box]:
     for j in range(-1, rows + 1):
         discs += [Disc(side * (half + d / 2), bottom + j * d, d, type=2) for side in (-1, 1)]
     return discs, (-0.03, 0.03, -0.03, 0.03)
+
+
+def kinetic_energy(state: Frame) -> float:
+    """Of translation and rotation; the frame has mass, radius, vx, vy and omegaz."""
+    m, r = state["mass"], state["radius"]
+    return 0.5 * float(np.sum(m * (state["vx"] ** 2 + state["vy"] ** 2) + m * r**2 / 2 * state["omegaz"] ** 2))

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from engine import Disc, Frame, run
-from scenes import cloud, lattice
+from scenes import cloud, kinetic_energy, lattice
 
 COLLIDE = """
 include ${decks}/start.in
@@ -32,11 +32,6 @@ def momenta(state: Frame) -> np.ndarray:
     )
 
 
-def energy(state: Frame) -> float:
-    m, r = state["mass"], state["radius"]
-    return 0.5 * float(np.sum(m * (state["vx"] ** 2 + state["vy"] ** 2) + m * r**2 / 2 * state["omegaz"] ** 2))
-
-
 def test_momentum_and_angular_momentum_to_round_off(tmp_path: Path, law: str, ranks: int) -> None:
     """49 discs of many sizes collide obliquely, with friction and damping. Each contact's forces are opposite and act
     at one point, so momentum and angular momentum (with the spins) are kept to round-off. Velocities cancel exactly;
@@ -46,7 +41,7 @@ def test_momentum_and_angular_momentum_to_round_off(tmp_path: Path, law: str, ra
     )  # fmt: skip
     before, after = out.dump("start.dump")[0], out.end
     assert np.count_nonzero(before["omegaz"] != after["omegaz"]) > 40  # many did collide
-    assert energy(after) < 0.7 * energy(before)
+    assert kinetic_energy(after) < 0.7 * kinetic_energy(before)
     scale = np.abs(momenta(before)).sum(axis=1)
     change = np.abs(momenta(after).sum(axis=1) - momenta(before).sum(axis=1)) / scale
     assert max(change[:2]) < 1e-15
@@ -63,7 +58,7 @@ def test_energy_of_frictionless_collisions(tmp_path: Path, law: str, ranks: int)
     before, after = out.dump("start.dump")[0], out.end
     assert np.count_nonzero(before["vx"] != after["vx"]) > 40
     assert np.array_equal(before["omegaz"], after["omegaz"])
-    assert energy(after) == pytest.approx(energy(before), rel=1e-3)
+    assert kinetic_energy(after) == pytest.approx(kinetic_energy(before), rel=1e-3)
 
 
 STICK = """
@@ -88,7 +83,7 @@ def lattice_energy(directory: Path, dt: float, **options: object) -> np.ndarray:
     )  # fmt: skip
     elastic = out.thermo["PotEng"]
     assert elastic[0] == pytest.approx(3 * len(discs) * 0.5 * 1e8 * PRELOAD**2, rel=1e-12)
-    kinetic = np.array([energy(frame) for frame in out.dump("lattice.dump")])
+    kinetic = np.array([kinetic_energy(frame) for frame in out.dump("lattice.dump")])
     return (kinetic + elastic) / kinetic[0]
 
 
