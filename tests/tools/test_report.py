@@ -241,8 +241,12 @@ def test_frames_are_found_by_displacement(folder):
     assert film.at(4.4).displacement == pytest.approx(4, abs=0.01)
     assert film.last().displacement == pytest.approx(8, abs=0.01)
     branches = film.last().branches()
-    lengths = np.hypot(*(branches[:, 0] - branches[:, 1]).T)
+    lengths = np.hypot(*(branches[:, 0] - branches[:, 2]).T)
     assert len(branches) > 500 and np.ptp(lengths) < 0.1 * lengths.mean()
+    assert branches[:, 1] == pytest.approx((branches[:, 0] + branches[:, 2]) / 2, abs=1e-8)
+    assert not np.any(film.first().rotation_since(film.first()))
+    turned = film.last().rotation_since(film.first())
+    assert turned == pytest.approx(film.last().discs["angle"]) and np.ptp(turned) > 1
 
 
 def test_colours_of_the_paper_and_others():

@@ -146,6 +146,16 @@ def test_an_engine_that_writes_nothing_is_found_out(folder):
     assert "ended without writing packed.csv" in failed.stderr
 
 
+def test_an_engine_that_cannot_be_started_is_named(folder, tmp_path):
+    engine = tmp_path / "engine"
+    engine.write_text("neither a script nor a program", encoding="utf-8")
+    engine.chmod(0o755)
+    failed = shearbox(folder, "--engine", str(engine))
+    assert failed.returncode == 1
+    assert f"Exec format error: '{engine}'" in failed.stderr
+    assert "Traceback" not in failed.stderr
+
+
 def test_two_runs_in_one_folder(folder):
     first = subprocess.Popen(
         command(folder, "--stress", "100"), env={**os.environ, "FAKE_SECONDS": "8"}, stdout=subprocess.DEVNULL

@@ -9,7 +9,7 @@ import subprocess
 import time
 from collections import deque
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -119,7 +119,8 @@ class Campaign:
         """Add the seconds of a phase to those of earlier attempts; its total is returned."""
         timings = read_timings(self._folder)
         total = timings.get(job.phase.label, 0.0) + time.monotonic() - job.begun
-        write_json(self._folder / TIMINGS, {**timings, job.phase.label: round(total, 2)})
+        with suppress(ShearboxError):  # a full disk has more important things to say
+            write_json(self._folder / TIMINGS, {**timings, job.phase.label: round(total, 2)})
         return total
 
     def _guard_disk(self) -> None:

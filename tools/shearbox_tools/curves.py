@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from .features import steepest_dilatancy
+from .polynomial import end_zone
 from .results import Results, Shear
 from .strength import Line
 from .style import RC, as_uri, colours
@@ -71,7 +72,7 @@ def _stress(results: Results) -> Figure:
     figure, axes = _axes(DISPLACEMENT, "shear stress τ (kPa)")
     for shear in results.shears:
         _draw_curve(axes, shear, "tau_kPa", _palette(results)[shear.sigma])
-        marker = ">" if shear.peak.at_boundary else "o"
+        marker = "D" if shear.peak.at_boundary else "o"
         axes.plot(shear.peak.position, shear.peak.value, marker, ms=5.5, color="white", zorder=4, clip_on=False,
                   mec=_palette(results)[shear.sigma], mew=1.6)  # fmt: skip
     _finish(axes, results)
@@ -94,7 +95,7 @@ def _rate(results: Results) -> Figure:
     figure, axes = _axes(DISPLACEMENT, "dilatancy rate, lid/shear (mm/mm)")
     for shear in results.shears:
         colour, lid = _palette(results)[shear.sigma], shear.lid
-        s = np.linspace(lid.end_zone, lid.span - lid.end_zone, 300)
+        s = np.linspace(end_zone(lid.span), lid.span - end_zone(lid.span), 300)
         axes.plot(s, lid.series.deriv()(s), color=colour, lw=1.7)
         axes.plot(*steepest_dilatancy(lid), "^", ms=6, color=colour)
         axes.plot(shear.peak.position, lid.series.deriv()(shear.peak.position), "o", ms=5.5, color="white", mec=colour,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Pictures of the specimen: discs to scale, coloured by rotation, and the chains of force through them."""
+"""Pictures of the specimen: discs to scale, coloured by what they turned since the start, and the chains of force."""
 
 import numpy as np
 from matplotlib import colormaps, rc_context
@@ -32,10 +32,13 @@ def _figure(first: Moment, last: Moment, loaded: Moment) -> Figure:
     width = PANEL_HEIGHT * (high[0] - low[0]) / (high[1] - low[1])
     figure = Figure(figsize=(3 * width + 0.9, PANEL_HEIGHT + 0.4), layout="constrained")
     panels = figure.subplots(1, 3)
-    scale = _rotation_scale(last)
-    for axes, moment, title in zip(panels, (first, last), ("before shear", f"after {last.displacement:.1f} mm")):
-        _draw_discs(axes, moment, ROTATIONS(scale(np.degrees(moment.discs["angle"]))))
-        axes.set_title(title)
+    rotation = np.degrees(last.rotation_since(first))
+    limit = max(1.0, float(np.quantile(np.abs(rotation[~last.walls]), 0.98)))
+    scale = Normalize(-limit, limit)
+    _draw_discs(panels[0], first, ROTATIONS(scale(np.zeros(len(first.walls)))))
+    _draw_discs(panels[1], last, ROTATIONS(scale(rotation)))
+    panels[0].set_title("before shear")
+    panels[1].set_title(f"after {last.displacement:.1f} mm")
     _draw_forces(panels[2], loaded)
     for axes in panels:
         axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
@@ -44,13 +47,6 @@ def _figure(first: Moment, last: Moment, loaded: Moment) -> Figure:
     bar.set_label("rotation (°, anticlockwise +)")
     bar.outline.set_visible(False)
     return figure
-
-
-def _rotation_scale(moment: Moment) -> Normalize:
-    """Degrees, the same to both sides, wide enough for 98 % of the discs."""
-    rotation = np.degrees(moment.discs["angle"][~moment.walls])
-    limit = max(1.0, float(np.quantile(np.abs(rotation), 0.98)))
-    return Normalize(-limit, limit)
 
 
 def _extent(moments: list[Moment]) -> tuple[np.ndarray, np.ndarray]:
@@ -83,7 +79,7 @@ def _draw_discs(axes: Axes, moment: Moment, colours: np.ndarray, outline: str = 
 
 
 def _draw_forces(axes: Axes, moment: Moment) -> None:
-    """A line from centre to centre, as wide as its normal force is great, over faint discs."""
+    """A line from grain to grain through their contact, as wide as its normal force is great, over faint discs."""
     faint = np.tile(_rgba("#f1f3f5"), (len(moment.discs["id"]), 1))
     _draw_discs(axes, moment, faint, outline="#d5dade")
     force = np.clip(moment.contacts["fn"], 0, None)
@@ -93,7 +89,11 @@ def _draw_forces(axes: Axes, moment: Moment) -> None:
     greatest = float(force.max())
     axes.add_collection(
         LineCollection(
-            list(moment.branches()), linewidths=WIDEST_LINE * force / greatest, colors="#7a1022", capstyle="round"
+            list(moment.branches()),
+            linewidths=WIDEST_LINE * force / greatest,
+            colors="#7a1022",
+            capstyle="round",
+            joinstyle="round",
         )
     )
     axes.text(0.5, -0.01, f"widest line: {greatest:.0f} N", transform=axes.transAxes, ha="center", va="top", fontsize=8)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .peak import Peak, turning_points
-from .polynomial import Fit
+from .polynomial import Fit, end_zone
 from .strength import Line
 
 LEAST_R_SQUARED = 0.98
@@ -56,7 +56,7 @@ def steepest_dilatancy(lid: Fit) -> tuple[float, float]:
     The highest turning point of the rate; where it has none, the greater of its values at the two end zones.
     """
     rate = lid.series.deriv()
-    ends = (lid.end_zone, lid.span - lid.end_zone)
+    ends = (end_zone(lid.span), lid.span - end_zone(lid.span))
     inside = [s for s in turning_points(rate) if ends[0] < s < ends[1]]
     position = max(inside or ends, key=rate)
     return float(position), float(rate(position))

@@ -25,7 +25,7 @@ class Log:
         if not self.seconds:
             return "–"
         ranked = sorted(self.parts.items(), key=lambda item: -item[1])[:3]
-        return ", ".join(f"{part.lower()} {100 * seconds / self.seconds:.0f} %" for part, seconds in ranked)
+        return ", ".join(f"{part.lower()} {100 * seconds / self.seconds:.0f}\u00a0%" for part, seconds in ranked)
 
 
 def read_log(path: Path) -> Log:

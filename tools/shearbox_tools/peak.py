@@ -19,15 +19,15 @@ class Peak:
     value_error: float
     position: float
     position_error: float
-    at_boundary: bool  # the curve still rises at the end of the travel: no peak within it
+    at_boundary: bool  # there is no peak within the travel
 
 
 def find_peak(fit: Fit) -> Peak:
     """Highest interior maximum, unless the end of the curve is significantly higher.
 
-    A polynomial is poorly held near its ends, so maxima within `fit.end_zone` of them do not count. If the value at the
-    end exceeds the interior maximum by more than two standard errors (or there is no interior maximum), the curve is
-    still rising and its end is returned, marked as a boundary.
+    A polynomial is poorly held near its ends, so maxima within `end_zone` of them do not count. If the value at the end
+    exceeds the interior maximum by more than two standard errors, or there is no interior maximum, the boundary is
+    returned and marked as such: the end of the travel for a curve that rises, the first zone for one that falls.
 
     The uncertainties are the root mean square deviations of the bootstrap replicas from the peak: they hold
     the noise, the choice of the degree, and the bias of taking the maximum of a noisy curve.
@@ -43,7 +43,7 @@ def find_peak(fit: Fit) -> Peak:
 
 def _locate(series: Legendre, span: float, margin: float) -> tuple[float, bool]:
     """Position of the peak of one polynomial on [0, span], and whether it is the end."""
-    zone = end_zone(series.degree(), span)
+    zone = end_zone(span)
     interior = [p for p in turning_points(series) if zone < p < span - zone]
     if not interior:
         ends = (zone, span)

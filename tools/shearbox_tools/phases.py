@@ -9,7 +9,7 @@ from .files import PACKED, stress_folder
 from .models import INPUT
 from .request import Request
 
-BYTES_PER_FRAME_AND_DISC = 600  # of the three dumps together, with 2.2 contacts per disc
+BYTES_PER_FRAME_AND_DISC = 300  # of the three dumps together
 FRAMES = 101
 
 

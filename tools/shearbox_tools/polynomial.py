@@ -62,11 +62,6 @@ class Fit:
         vander = _vander(np.atleast_1d(x), self.span) @ self.basis[:, : len(self.coefficients)]
         return np.sqrt(np.einsum("ij,jk,ik->i", vander, self.covariance, vander))
 
-    @property
-    def end_zone(self) -> float:
-        """Width of the zone at each end where the polynomial rests on one side only: the last Chebyshev interval."""
-        return end_zone(self.degree, self.span)
-
     def replicas(self, count: int, seed: int = 1) -> list[Legendre]:
         """Polynomials fitted to resampled residuals, each with its own degree (see the rule above)."""
         rng = np.random.default_rng(seed)
@@ -80,9 +75,12 @@ class Fit:
         return len(self.y) - len(self.coefficients)
 
 
-def end_zone(degree: int, span: float) -> float:
-    """span (1 - cos(pi / (degree + 1))) / 2: outside it a polynomial of this degree is held from both sides."""
-    return span * (1 - np.cos(np.pi / (degree + 1))) / 2
+def end_zone(span: float) -> float:
+    """Width of the zones at the ends, where a polynomial of the highest degree d rests on one side only.
+
+    The last Chebyshev interval, span (1 - cos(pi / (d + 1))) / 2: a twentieth of the span.
+    """
+    return span * (1 - np.cos(np.pi / (DEGREES[-1] + 1))) / 2
 
 
 def fit_curve(x: np.ndarray, y: np.ndarray, through_origin: bool = False) -> Fit:

@@ -82,14 +82,16 @@ def _page(results: Results, summary: dict[str, Any], pictures: dict[str, str]) -
     environment.filters["minus"] = minus
     return environment.get_template("report.html.j2").render(
         summary=summary, shears=results.shears, line=results.line, pictures=pictures, logs=phase_logs(results),
-        consolidations=results.consolidations, comments=_comments(),
+        consolidations=results.consolidations,
+        comments=_comments(summary["model"]),
     )  # fmt: skip
 
 
-def _comments() -> dict[str, str]:
-    """What the deck says about its parameters; the page goes without when the deck is not there."""
+def _comments(model: str) -> dict[str, str]:
+    """What the decks say about their variables; the page goes without when they are not there."""
     try:
-        return read_comments(INPUT / "parameters.in")
+        of_model = read_comments(INPUT / "models" / f"{model}.in")
+        return {**read_comments(INPUT / "parameters.in"), **{f"model {k}": text for k, text in of_model.items()}}
     except ShearboxError:
         return {}
 

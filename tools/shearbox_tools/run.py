@@ -16,6 +16,7 @@ from .phases import disk_need, shearing
 from .request import Request, check, open_folder
 
 SPARE_BYTES = 100_000_000
+GIVEN = {"model", "seed", "law", "dt", "sigma", "speed", "travel"}  # variables that come from the command line
 
 
 def run(options: argparse.Namespace) -> None:
@@ -32,8 +33,8 @@ def run(options: argparse.Namespace) -> None:
     engine = Engine((options.engine or PROGRAM).resolve(), options.ranks)
     console = Console()
     check(request)
-    _check_machine(options.jobs, engine, console)
-    parameters = {k: v for k, v in read_variables(INPUT / "parameters.in").items() if k not in ("law", "dt")}
+    _check_machine(min(options.jobs, len(request.stresses)), engine, console)
+    parameters = {k: v for k, v in read_variables(INPUT / "parameters.in").items() if k not in GIVEN}
     folder: Path = options.out
     _check_disk(folder, request)
     open_folder(folder, request, parameters)

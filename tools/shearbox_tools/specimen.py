@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The specimen at one moment: its discs, and the forces between them; SI units."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,9 +14,10 @@ GRAIN, WALL = 1, 2  # atom types of the decks
 
 @dataclass(frozen=True)
 class Moment:
-    """One frame of the three dumps (contacts: the frame nearest to it)."""
+    """One frame of the three dumps (grains and contacts: the frames nearest to that of the discs)."""
 
     displacement: float  # mm
+    grains: Columns
     discs: Columns
     contacts: Columns
 
@@ -26,21 +26,26 @@ class Moment:
         """(discs,) whether a disc is of a wall."""
         return self.discs["type"] == WALL
 
+    def rotation_since(self, first: "Moment") -> np.ndarray:
+        """(discs,) angle (rad) that the grain of each disc has turned since another moment."""
+        before = dict(zip(first.grains["id"], first.grains["angle"]))
+        turned = {i: angle - before.get(i, angle) for i, angle in zip(self.grains["id"], self.grains["angle"])}
+        return np.array([turned.get(i, 0.0) for i in self.discs["id"]])
+
     def branches(self) -> np.ndarray:
-        """(contacts, 2, 2) from the one disc's centre to the other's, in m."""
-        places = {key: i for i, key in enumerate(_keys(self.discs["id"], self.discs["disc"]))}
-        ends = []
-        for name in ("1", "2"):
-            keys = _keys(self.contacts[f"id{name}"], self.contacts[f"disc{name}"])
-            rows = [places[key] for key in keys]
-            ends.append(np.column_stack([self.discs["x"][rows], self.discs["y"][rows]]))
-        return np.stack(ends, axis=1) if len(ends[0]) else np.empty((0, 2, 2))
+        """(contacts, 3, 2) from the centre of the one grain over the contact point to that of the other, in m."""
+        row = {i: k for k, i in enumerate(self.grains["id"])}
+        centres = np.column_stack([self.grains["x"], self.grains["y"]])
+        ends = [centres[[row[i] for i in self.contacts[name]]] for name in ("id1", "id2")]
+        points = np.column_stack([self.contacts["x"], self.contacts["y"]])
+        return np.stack([ends[0], points, ends[1]], axis=1)
 
 
 class Film:
     """The dumps of one shear phase; displacements (mm) of the frames come from the table of the phase."""
 
     def __init__(self, folder: Path, steps: np.ndarray, displacements: np.ndarray) -> None:
+        self._grains = Dump(folder / "grains.dump", GRAINS)
         self._discs = Dump(folder / "discs.dump", DISCS)
         self._contacts = Dump(folder / "contacts.dump", CONTACTS)
         first = self._discs.nearest(0)
@@ -50,8 +55,7 @@ class Film:
 
     def at(self, displacement: float) -> Moment:
         """The frame nearest to a displacement (mm)."""
-        wanted = float(np.interp(displacement, self._displacements, self._steps))
-        return self._moment(self._discs.nearest(wanted))
+        return self._moment(float(np.interp(displacement, self._displacements, self._steps)))
 
     def first(self) -> Moment:
         """The specimen before shear."""
@@ -61,9 +65,11 @@ class Film:
         """The specimen at the end, or as far as it has come."""
         return self._moment(self._discs.steps[-1])
 
-    def _moment(self, step: int) -> Moment:
+    def _moment(self, wanted: float) -> Moment:
+        step = self._discs.nearest(wanted)
         displacement = float(np.interp(step, self._steps, self._displacements))
-        return Moment(displacement, self._discs.frame(step), self._contacts.frame(self._contacts.nearest(step)))
+        frames = (dump.frame(dump.nearest(step)) for dump in (self._grains, self._discs, self._contacts))
+        return Moment(displacement, *frames)
 
 
 def count_lost(folder: Path, total: int, width: float, half_height: float) -> int:
@@ -82,7 +88,3 @@ def count_lost(folder: Path, total: int, width: float, half_height: float) -> in
     if len(lid):
         inside &= y < lid.min() + radius
     return total - int(np.sum(inside & ~walls))
-
-
-def _keys(ids: np.ndarray, discs: np.ndarray) -> Iterator[tuple[int, int]]:
-    return zip(ids.astype(int), discs.astype(int))
