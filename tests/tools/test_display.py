@@ -13,9 +13,9 @@ def show(console: Console, monkeypatch) -> str:
     now = [0.0]
     monkeypatch.setattr(display.time, "monotonic", lambda: now[0])
     shown = display.make_display(console, total=16, reached=4)
-    shown.started("pack", None)
+    shown.started("pack", None, 0)
     shown.ended("pack", "done in 4 s")
-    shown.started("shear 100 kPa", 8)
+    shown.started("shear 100 kPa", 8, 4)
     for k in range(5):
         now[0] = 40.0 * k
         shown.moved("shear 100 kPa", 4.0 + k)

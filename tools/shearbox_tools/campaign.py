@@ -79,8 +79,10 @@ class Campaign:
 
     def _start(self, phase: Phase) -> subprocess.Popen[bytes]:
         repair(phase.folder)
+        reached = phase.displacement()
         process = self._engine.start(phase, self._lock)
-        self._display.started(phase.label, self._request.travel if phase.name == "shear" else None)
+        sheared = phase.name == "shear"
+        self._display.started(phase.label, self._request.travel if sheared else None, reached)
         return process
 
     def _attend(self, job: Job, failures: list[str]) -> bool:

@@ -13,8 +13,8 @@ SECONDS_BETWEEN_LINES = 30.0
 class Display(Protocol):
     """What the campaign tells of its progress; displacements in mm."""
 
-    def started(self, label: str, travel: float | None) -> None:
-        """A phase begins; phases whose end cannot be foreseen have no travel."""
+    def started(self, label: str, travel: float | None, reached: float) -> None:
+        """A phase begins, or goes on where it was stopped; phases whose end cannot be foreseen have no travel."""
 
     def moved(self, label: str, displacement: float) -> None:
         """A shear phase has come so far."""
@@ -57,17 +57,16 @@ class BarDisplay:
         self._progress.update(self._all, completed=reached)
         self._progress.start()
 
-    def started(self, label: str, travel: float | None) -> None:
+    def started(self, label: str, travel: float | None, reached: float) -> None:
+        self._reached[label] = reached
         self._tasks[label] = self._progress.add_task(label, total=travel, state="")
         if travel is not None:
             self._progress.start_task(self._all)
 
     def moved(self, label: str, displacement: float) -> None:
         task = self._tasks[label]
-        first = label not in self._reached
         self._progress.update(task, completed=displacement, state=f"{displacement:.2f} mm", refresh=True)
-        if not first:
-            self._progress.update(self._all, advance=displacement - self._reached[label])
+        self._progress.update(self._all, advance=displacement - self._reached[label])
         self._reached[label] = displacement
 
     def ended(self, label: str, note: str) -> None:
@@ -93,11 +92,13 @@ class LineDisplay:
         self._start: tuple[float, float] | None = None  # time and what was left when the first phase reported
         self._last_line = time.monotonic()
 
-    def started(self, label: str, travel: float | None) -> None:  # pylint: disable=unused-argument
+    def started(self, label: str, travel: float | None, reached: float) -> None:
+        if travel is not None:
+            self._positions[label] = reached
         self.say(f"{label}: started")
 
     def moved(self, label: str, displacement: float) -> None:
-        self._left -= displacement - self._positions.get(label, displacement)
+        self._left -= displacement - self._positions[label]
         self._positions[label] = displacement
         now = time.monotonic()
         if self._start is None:
