@@ -79,64 +79,65 @@ inline T slip_velocity(const Disc<T> &u, T omega_sum, const Approach<T> &half, T
   return half.t + half_dt * (half.n - half_dt * across * turning) * (turning + T(0.5) * omega_sum);
 }
 
-// How much of a step's force a contact deserves that closed within the step before or opens within the step after.
-// The trapezoidal rule of the time integration gives half of either step to any force. A contact that closed a
-// fraction f of the step ago has acted during f, not 1/2, of it, so its dashpot counts f + 1/2 instead of 1, and
-// likewise for opening. Without this, the dashpot switches at step borders and the scheme is first order in time.
-template <class T> struct Edges {
-  T spring;  // fraction of this step's displacement that was made in contact
+// The part of the step behind that a pair was in contact, as it enters the forces now.
+//
+// The trapezoidal rule of the time integration gives half of either neighbouring step to a force. A contact that closed
+// a fraction f of the step ago acted during f, not 1/2, of it: its dashpot counts f + 1/2 now. One that opened after a
+// fraction f of the step got 1/2 of it when it was last seen: the dashpot's share of f - 1/2 is made good now. Without
+// this a dashpot switches on and off at the borders of steps, and the scheme is of first order in time.
+template <class T> struct Presence {
+  T spring;  // share of this step's displacement that was made in contact
   T dashpot; // weight of the dashpot
 };
 
-template <class T> inline Edges<T> edges(T overlap, T un_half, T un, double dt) {
-  const T since = -un_half * T(dt), until = un * T(dt); // overlap gained in the last step, lost in the next
-  const auto closed = overlap < since, opens = overlap < until;
-  if (!any(closed) && !any(opens))
-    return {T(1), T(1)};
-  const T before = select(closed, overlap / select(closed, since, T(1)), T(1));
-  const T after = select(opens, overlap / select(opens, until, T(1)), T(1));
-  return {before, select(closed, before, T(0.5)) + select(opens, after, T(0.5))};
+template <class T> inline Presence<T> presence(T overlap, T un_half, double dt) {
+  const T before = overlap + un_half * T(dt); // overlap one step ago
+  const auto touch = overlap > T(0), touched = before > T(0);
+  const auto changed = touch != touched;
+  const T plain = select(touch, T(1), T(0));
+  if (!any(changed))
+    return {T(1), plain};
+  const T in_contact = select(touch, overlap, before) / select(changed, magnitude(overlap - before), T(1));
+  return {select(changed, in_contact, T(1)), select(changed, in_contact + select(touch, T(0.5), T(-0.5)), plain)};
 }
 
-// The force of a pair, and its history brought forward by the displacement of one step. `dt_history` is dt, or 0 to
-// evaluate the force of the present state without changing what the contact remembers.
+// The force of a pair, and its history brought forward by the displacement of a step of length dt. With dt = 0 it is
+// the force of the present state, and the history stays as it is.
 template <Law law, bool limit_damping, class T>
 [[gnu::always_inline]] inline Forces<T> contact_force(const Relative<T> &of_a, const Pair<T> &pair, const Material &m,
-                                                      double dt, double dt_history, History<T> &history) {
+                                                      double dt, History<T> &history) {
   const Disc<T> &u = of_a.difference;
-  const T dx = u.x, dy = u.y;
-  const T distance = square_root(dx * dx + dy * dy), inverse = T(1) / distance;
+  const T distance = square_root(u.x * u.x + u.y * u.y), inverse = T(1) / distance;
   const T overlap = pair.radius_sum - distance;
   const auto touch = overlap > T(0);
-  const T nx = dx * inverse, ny = dy * inverse;
+  const T nx = u.x * inverse, ny = u.y * inverse;
 
   const Approach<T> half =
       approach<T>(u.vx_half, u.vy_half, of_a.omega_half_sum, u.omega_half, nx, ny, distance, pair.radius_difference);
   const Approach<T> now = approach<T>(u.vx, u.vy, of_a.omega_sum, u.omega, nx, ny, distance, pair.radius_difference);
-  const Edges<T> edge =
-      edges<T>(select(touch, overlap, T(1)), select(touch, half.n, T(0)), select(touch, now.n, T(0)), dt);
+  const Presence<T> share = presence<T>(overlap, half.n, dt);
 
-  T en = T(m.kn) * overlap;
+  T en = select(touch, T(m.kn) * overlap, T(0));
   if constexpr (law == Law::incremental) {
     // A contact that closed in this step, or is met without a history, starts with the overlap it has.
-    const auto known = (edge.spring == T(1)) && (history.en != T(0));
-    history.en = select(touch, select(known, history.en - T(m.kn * dt_history) * half.n, en), T(0));
-    en = history.en;
+    const auto known = (share.spring == T(1)) && (history.en != T(0));
+    en = select(touch && known, history.en - T(m.kn * dt) * half.n, en);
+    history.en = en;
   }
 
-  const T limit = select(en > T(0), T(m.mu) * en, T(0));
+  // Apart, the limit is 0, which clears the history.
+  const T limit = law == Law::direct ? T(m.mu) * en : T(m.mu) * select(en > T(0), en, T(0));
   const T slip = slip_velocity<T>(u, of_a.omega_half_sum, half, nx, ny, inverse, T(0.5 * dt));
-  const T trial = history.es - T(m.ks * dt_history) * slip * edge.spring;
+  const T trial = history.es - T(m.ks * dt) * slip * share.spring;
   const auto slides = magnitude(trial) >= limit;
   const T es = select(slides, with_sign_of(limit, trial), trial);
-  history.es = select(touch, es, T(0));
+  history.es = es;
 
-  const T dashpot = pair.root_mass * edge.dashpot;
+  const T dashpot = pair.root_mass * share.dashpot;
   T fn = en - T(m.dn) * dashpot * now.n;
   if constexpr (limit_damping)
-    fn = select(fn > T(0), fn, T(0));
-  fn = select(touch, fn, T(0));
-  const T ft = select(touch, select(slides, es, es - T(m.ds) * dashpot * now.t), T(0));
+    fn = select(touch && fn > T(0), fn, T(0));
+  const T ft = select(slides, es, es - T(m.ds) * dashpot * now.t);
   return {fn * nx - ft * ny, fn * ny + ft * nx, T(-0.5) * ft * (distance + pair.radius_difference),
           T(-0.5) * ft * (distance - pair.radius_difference)};
 }

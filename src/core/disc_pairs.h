@@ -50,11 +50,11 @@ struct DiscPairs {
         visit(k, segment.material);
   }
 
-  void compute_forces(ForceKernel kernel, const Disc<double> *discs, double dt, double dt_history) {
+  void compute_forces(ForceKernel kernel, const Disc<double> *discs, double dt) {
     const PairColumns columns{a.data(),         b.data(),  radius_sum.data(), radius_difference.data(),
                               root_mass.data(), es.data(), en.data(),         force.data()};
     for (const Segment &s : segments)
-      kernel(discs, columns, s.material, s.begin, s.end, dt, dt_history);
+      kernel(discs, columns, s.material, s.begin, s.end, dt);
   }
 
   double bytes() const { return double(a.size()) * (2 * sizeof(int) + 5 * sizeof(double) + sizeof(Forces<double>)); }

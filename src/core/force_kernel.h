@@ -19,9 +19,9 @@ struct PairColumns {
   Forces<double> *force;
 };
 
-// The range is begin ... end-1, begin a multiple of LANES. dt_history: see contact_force.
+// The range is begin ... end-1, begin a multiple of LANES.
 using ForceKernel = void (*)(const Disc<double> *discs, const PairColumns &, const Material &, int begin, int end,
-                             double dt, double dt_history);
+                             double dt);
 
 // The fastest one that this machine can run.
 ForceKernel force_kernel(Law, bool limit_damping);

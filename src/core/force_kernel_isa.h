@@ -17,15 +17,14 @@ constexpr int WIDTH = 1;
 #endif
 
 template <Law law, bool limit_damping, class T>
-void forces(const Disc<double> *discs, const PairColumns &p, const Material &material, int begin, int end, double dt,
-            double dt_history) {
+void forces(const Disc<double> *discs, const PairColumns &p, const Material &material, int begin, int end, double dt) {
   for (int k = begin; k < end; k += WIDTH) {
     const Pair<T> pair{load(p.radius_sum + k, T()), load(p.radius_difference + k, T()), load(p.root_mass + k, T())};
     History<T> history{load(p.es + k, T()), T(0)};
     if constexpr (law == Law::incremental)
       history.en = load(p.en + k, T());
     store_forces(p.force + k, contact_force<law, limit_damping, T>(load_relative(discs, p.a + k, p.b + k, T()), pair,
-                                                                   material, dt, dt_history, history));
+                                                                   material, dt, history));
     store(p.es + k, history.es);
     if constexpr (law == Law::incremental)
       store(p.en + k, history.en);

@@ -185,7 +185,7 @@ void PairCDEM::compute(int eflag, int vflag) {
     build_list();
   }
   history_in_list = true;
-  pairs.compute_forces(kernel, rows.data(), update->dt, update->setupflag ? 0 : update->dt);
+  pairs.compute_forces(kernel, rows.data(), update->setupflag ? 0 : update->dt);
   clumps ? sum_clump_forces() : sum_disc_forces();
   if (evflag)
     tally();
@@ -384,7 +384,7 @@ void PairCDEM::sum_clump_forces() {
 // Energy and virial, with the branch vector from grain centre to grain centre.
 void PairCDEM::tally() {
   pairs.for_each([this](int k, const cdem::Material &m) {
-    if (overlap(k) <= 0)
+    if (!acts(k))
       return;
     const int i = grain(pairs.a[k]), j = grain(pairs.b[k]);
     const double *const xi = atom->x[i], *const xj = atom->x[j];
@@ -402,7 +402,12 @@ double PairCDEM::overlap(int k) const {
 // A pair across a border is on two ranks (or twice on one, if periodic): the owner of disc a counts it.
 bool PairCDEM::counts(int k) const { return grain(pairs.a[k]) < atom->nlocal; }
 
+// Also in the step after it opened, in which its dashpot may have a share left.
+bool PairCDEM::acts(int k) const { return overlap(k) > 0 || pairs.force[k].fx != 0 || pairs.force[k].fy != 0; }
+
 double PairCDEM::spring_energy(int k, const cdem::Material &m) const {
+  if (overlap(k) <= 0)
+    return 0;
   const double en = law == cdem::Law::direct ? m.kn * overlap(k) : pairs.en[k], es = pairs.es[k];
   return 0.5 * en * en / m.kn + (m.ks > 0 ? 0.5 * es * es / m.ks : 0);
 }
@@ -410,7 +415,7 @@ double PairCDEM::spring_energy(int k, const cdem::Material &m) const {
 double PairCDEM::elastic_energy() const {
   double sum = 0;
   pairs.for_each([&](int k, const cdem::Material &m) {
-    if (counts(k) && overlap(k) > 0)
+    if (counts(k))
       sum += spring_energy(k, m);
   });
   return sum;
@@ -444,7 +449,7 @@ PairCDEM::Contact PairCDEM::contact(int k, const cdem::Material &m) const {
 std::vector<PairCDEM::Contact> PairCDEM::contacts() const {
   std::vector<Contact> all;
   pairs.for_each([&](int k, const cdem::Material &m) {
-    if (overlap(k) > 0)
+    if (acts(k))
       all.push_back(contact(k, m));
   });
   return all;
@@ -465,7 +470,7 @@ double PairCDEM::single(int i, int j, int itype, int jtype, double, double, doub
     std::swap(i, j);
   auto add = [&](int k) {
     const int p = pairs.a[k], q = pairs.b[k], other = grain(p) == i ? grain(q) : grain(p);
-    if (atom->tag[other] != atom->tag[j] || overlap(k) <= 0)
+    if (atom->tag[other] != atom->tag[j] || !acts(k))
       return;
     const Contact c = contact(k, materials[itype][jtype]);
     energy += spring_energy(k, materials[itype][jtype]);

@@ -31,7 +31,8 @@ class FixCDEMIntegrate;
 
 class PairCDEM : public Pair {
 public:
-  // A contact of the last step. t = n turned by +90 degrees; the force on disc a is fn n + ft t.
+  // A contact of the last step. t = n turned by +90 degrees; the force on disc a is fn n + ft t. One that opened within
+  // the step is still there, with what is left of its dashpot and an overlap below zero.
   struct Contact {
     tagint tag_a, tag_b;
     int disc_a, disc_b;
@@ -105,6 +106,7 @@ private:
   void tally();
 
   double overlap(int k) const;
+  bool acts(int k) const;
   double spring_energy(int k, const cdem::Material &) const;
   Contact contact(int k, const cdem::Material &) const;
   bool counts(int k) const;

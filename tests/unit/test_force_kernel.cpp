@@ -57,7 +57,7 @@ template <Law law, bool limit> void plain(Scene &s) {
     const Pair<double> pair{p.radius_sum[k], p.radius_difference[k], p.root_mass[k]};
     History<double> history{p.es[k], p.en[k]};
     p.force[k] = contact_force<law, limit, double>(relative(s.discs[p.a[k]], s.discs[p.b[k]]), pair,
-                                                   p.segments[0].material, DT, DT, history);
+                                                   p.segments[0].material, DT, history);
     p.es[k] = history.es;
     if (law == Law::incremental)
       p.en[k] = history.en;
@@ -72,7 +72,7 @@ template <Law law, bool limit> void compare(ForceKernel kernel) {
   for (int n : {1, 3, 8, 13, 1000}) {
     Scene expected(n), got(n);
     plain<law, limit>(expected);
-    got.pairs.compute_forces(kernel, got.discs.data(), DT, DT);
+    got.pairs.compute_forces(kernel, got.discs.data(), DT);
     EXPECT_TRUE(same_bits(expected.pairs.force, got.pairs.force, n)) << n << " pairs";
     EXPECT_TRUE(same_bits(expected.pairs.es, got.pairs.es, n)) << n << " pairs";
     EXPECT_TRUE(same_bits(expected.pairs.en, got.pairs.en, n)) << n << " pairs";
