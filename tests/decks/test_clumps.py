@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from engine import DENSITY, Disc, Frame, Run, run, same_bits, start
+from engine import DENSITY, Disc, Frame, Run, run, same_bits, start, write_data
 from scenes import cloud
 
 R = 2e-3  # m, radius of the discs of most clumps here
@@ -488,3 +488,427 @@ def test_rocking_like_a_pendulum(tmp_path: Path, law: str, ranks: int, rolls: bo
     assert period(angle, 10 * dt) == pytest.approx(2 * math.pi / w, rel=2e-4)
     assert angle.max() == pytest.approx(amplitude, rel=2e-3)
     assert x.max() == pytest.approx(h * amplitude if rolls else 0, rel=2e-3, abs=1e-4 * h * amplitude)
+
+
+# --- against stock LAMMPS ---------------------------------------------------------------------------
+
+LONG = Clump((0, 0, R), (2 * R, 0, R), (4 * R, 0, R), (0, 2 * R, R), turn=20)
+
+
+def test_as_stock_fix_rigid(tmp_path: Path) -> None:
+    """Nine grains collide, smooth and without loss: stock LAMMPS has the same normal force (gran/hooke), and moves them
+    the same way (fix rigid) if it is given mass, centre and inertia of the bodies, here by the plain sums of Clump.
+    Every grain is hit, most of them several times. Places agree to 3e-14 m before the first hit, 1e-11 m at the end
+    (of 2.4 ms), where they part by a factor of 10 a ms: the trajectories are chaotic."""
+    random = np.random.default_rng(3)
+    dt, steps, every, kn = 2e-7, 12000, 200, 1e8
+    grains, shapes = [], []
+    for i in range(9):
+        x, y = 0.013 * (i % 3 - 1), 0.013 * (i // 3 - 1)
+        vx, vy, omega = random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-300, 300)
+        shapes.append((TRIPLE, LONG)[i % 2])
+        grains.append(shapes[-1].at(x, y, vx - 200 * x, vy - 200 * y, omega, type=(1, 3)[i % 2]))
+    options: dict[str, Any] = {"box": (-0.05, 0.05, -0.05, 0.05), "kn": kn, "dt": dt, "steps": steps, "every": every}
+
+    deck = begin(TRIPLE, LONG, step="dt any") + COLLIDE.replace(
+        "run",
+        """
+        compute discs all cdem/discs
+        dump discs all local ${every} discs.dump c_discs[*]
+        dump_modify discs format float %.17g
+        run""",
+    )
+    ours = run(deck, tmp_path / "ours", discs=grains, hn=0, hs=0, phi=0, **options)
+    assert (ours.end["omegaz"] != [g.omega for g in grains]).all()
+    places = []
+    for frame in ours.dump("discs.dump"):
+        grain, number, x, y, *_ = frame.columns.values()
+        places.append(np.array([x, y])[:, np.lexsort([number, grain])])
+
+    discs: list[Disc] = []
+    bodies, names = [], [f"b{k}" for k in range(1, 10)]
+    groups = exclude = ""
+    for name, grain, shape in zip(names, grains, shapes, strict=True):
+        groups += f"group {name} id {len(discs) + 1}:{len(discs) + len(shape.radii)}\n"
+        exclude += f"neigh_modify exclude group {name} {name}\n"
+        discs += [Disc(grain.x + o[0], grain.y + o[1], 2 * r) for o, r in zip(shape.offsets, shape.radii, strict=True)]
+        i = shape.inertia
+        # mass, centre, inertia (xx yy zz xy xz yz, thin), velocity, angular momentum, image
+        body = [shape.mass, grain.x, grain.y, 0, i / 2, i / 2, i, 0, 0, 0, grain.vx, grain.vy, 0, 0, 0, i * grain.omega]
+        bodies.append(" ".join([name[1:], *(f"{number:.17g}" for number in body), "0 0 0"]))
+    stock_deck = f"""
+    units si
+    dimension 2
+    boundary f f p
+    atom_style sphere
+    newton off
+    comm_modify vel yes
+    read_data discs.data
+    set group all density/disc {DENSITY}
+    {groups}
+    neighbor 0.001 bin
+    neigh_modify delay 0 every 1 check yes
+    {exclude}
+    pair_style gran/hooke ${{kn}} NULL 0 NULL 0 0
+    pair_coeff * *
+    fix move all rigid group 9 {" ".join(names)} infile bodies.txt
+    timestep ${{dt}}
+    dump discs all custom ${{every}} discs.dump id x y
+    dump_modify discs sort id format float %.17g
+    thermo_style custom step atoms
+    run ${{steps}}
+    """
+    (tmp_path / "stock").mkdir()
+    (tmp_path / "stock" / "bodies.txt").write_text("\n".join(["9", *bodies]) + "\n")
+    stock = run(stock_deck, tmp_path / "stock", discs=discs, **options)
+    apart = [
+        np.abs(place - np.array([frame["x"], frame["y"]])).max()
+        for place, frame in zip(places, stock.dump("discs.dump"), strict=True)
+    ]
+    assert len(apart) == steps // every + 1
+    assert max(apart[: 700 // every]) < 1e-13
+    assert max(apart) < 1e-10
+
+
+# --- the same bits ----------------------------------------------------------------------------------
+# A dense crowd in a box of wall discs: grains of four and three discs and single ones, turned at random and pressed
+# together. All bits agree however the work is cut.
+
+SINGLE = Clump((0, 0, 1.5 * R))
+PITCH, SIDE = 7.0e-3, 10
+CROWD_BOX = (-0.05, 0.05, -0.05, 0.05)
+COLUMNS = "id x y vx vy omegaz fx fy tqz f_move[1] f_move[2] f_move[3] f_move[4]".split()
+
+
+def crowd() -> list[Disc]:
+    random = np.random.default_rng(5)
+    discs = []
+    for k in range(SIDE**2):
+        i, j = k % SIDE, k // SIDE
+        x, y = PITCH * (i + 1 - SIDE / 2), PITCH * (j + 1 - SIDE / 2)  # borders between ranks pass through grains
+        vx, vy, omega = random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-500, 500)
+        if {i, j} & {0, SIDE - 1}:
+            discs.append(Disc(x, y, PITCH, type=2))
+        else:
+            type = (1, 1, 3, 4, 4)[k % 5]
+            discs.append({1: TRIPLE, 3: LONG, 4: SINGLE}[type].at(x, y, vx, vy, omega, type))
+    return discs
+
+
+def run_crowd(directory: Path, law: str, plan: str = "one", rebuild: str = "by need", **options: Any) -> Run:
+    """In one run or two; or with a restart in between, written or read."""
+    deck = begin(TRIPLE, LONG, SINGLE, more="orient 7")
+    if plan == "read":
+        fixes = deck[deck.index("fix shape") :]
+        deck = "newton off\nprocessors ${px} ${py} 1\nread_restart middle.restart\ncomm_modify vel yes\n"
+        deck += "neighbor ${skin} bin\nvariable density index 26.5\n" + fixes
+    deck += f"neigh_modify delay 0 every 1 check {'no' if rebuild == 'every step' else 'yes'}\n"
+    deck += f"timestep 5e-7\ndump end all custom 3000 end.dump {' '.join(COLUMNS)} type\n"
+    deck += "dump_modify end sort id format float %.17g\n" + dump_contacts(1000)
+    deck += {
+        "one": "run 3000\n",
+        "two": "run 1000\nrun 2000\n",
+        "write": "run 1000\nwrite_restart middle.restart\nrun 2000\n",
+        "read": "run 2000\n",
+    }[plan]
+    defaults = {"box": CROWD_BOX, "kn": 1e6, "ks": 2.5e5, "skin": 2e-4}
+    return run(deck, directory, discs=[] if plan == "read" else crowd(), law=law, **(defaults | options))
+
+
+@pytest.fixture(scope="module", params=["direct", "incremental"], name="crowd_law")
+def crowd_law_fixture(request: pytest.FixtureRequest) -> str:
+    """Both laws, with one reference run each."""
+    return request.param
+
+
+@pytest.fixture(scope="module")
+def reference(crowd_law: str, tmp_path_factory: pytest.TempPathFactory) -> Run:
+    return run_crowd(tmp_path_factory.mktemp(crowd_law), crowd_law)
+
+
+def end_of_crowd(out: Run) -> Frame:
+    return out.dump("end.dump")[-1]
+
+
+def test_the_crowd_is_worth_it(reference: Run) -> None:
+    """Many grains in contact when the restart is written, some twice with the same partner, sliding or not; many have
+    crossed a border, turned, or met another partner since."""
+    start, middle, end = contacts(reference)[0], contacts(reference)[1], contacts(reference)[-1]
+    grains = list(zip(middle["id1"], middle["id2"], strict=True))
+    assert len(grains) > 120 and len(set(grains)) < len(grains) - 20
+    assert np.count_nonzero(np.abs(middle["ft"]) > 0.01 * middle["fn"].max()) > 30
+    pairs = [set(zip(*(f[name] for name in FIELDS[:4]), strict=True)) for f in (start, middle, end)]
+    assert len(pairs[1] - pairs[0]) > 20 and len(pairs[2] - pairs[1]) > 20 and len(pairs[1] & pairs[2]) > 20
+    before, after = reference.dump("end.dump")[0], end_of_crowd(reference)
+    assert all(np.count_nonzero((before[axis] < 0) != (after[axis] < 0)) >= 2 for axis in "xy")
+    assert np.count_nonzero(np.abs(after["f_move[4]"] - before["f_move[4]"]) > 0.2) > 20
+    assert "Dangerous builds = 0" in reference.log
+
+
+@pytest.mark.parametrize("ranks", [2, 4])
+def test_ranks(tmp_path: Path, crowd_law: str, ranks: int, reference: Run) -> None:
+    assert same_bits(end_of_crowd(reference), end_of_crowd(run_crowd(tmp_path, crowd_law, ranks=ranks)), COLUMNS)
+
+
+@pytest.mark.parametrize("ranks", [2, 4])
+def test_ranks_without_grains(tmp_path: Path, crowd_law: str, ranks: int, reference: Run) -> None:
+    """All of the crowd in one corner of a large box."""
+    out = run_crowd(tmp_path, crowd_law, ranks=ranks, box=(-0.05, 0.3, -0.05, 0.3))
+    assert any(line.startswith("Nlocal:") and " 0 min" in line for line in out.log.splitlines())
+    assert same_bits(end_of_crowd(reference), end_of_crowd(out), COLUMNS)
+
+
+@pytest.mark.parametrize(("written_by", "read_by"), [(1, 1), (1, 4), (4, 2)])
+def test_restart_in_mid_contact(tmp_path: Path, crowd_law: str, written_by: int, read_by: int, reference: Run) -> None:
+    """Writing changes nothing; what is read goes on to the same bits, and is not turned at random again."""
+    written = run_crowd(tmp_path, crowd_law, "write", ranks=written_by)
+    assert same_bits(end_of_crowd(reference), end_of_crowd(written), COLUMNS)
+    read = run_crowd(tmp_path, crowd_law, "read", ranks=read_by)
+    assert same_bits(end_of_crowd(reference), end_of_crowd(read), COLUMNS)
+
+
+@pytest.mark.parametrize(("rebuild", "skin"), [("every step", 2e-4), ("by need", 4e-3)])
+def test_rebuilds(tmp_path: Path, crowd_law: str, rebuild: str, skin: float, reference: Run) -> None:
+    out = run_crowd(tmp_path, crowd_law, "two", rebuild=rebuild, skin=skin)
+    assert same_bits(end_of_crowd(reference), end_of_crowd(out), COLUMNS)
+
+
+def test_a_turning_grain_finds_its_neighbours(tmp_path: Path, ranks: int) -> None:
+    """A rod spins on the spot, so LAMMPS sees no reason to rebuild its list; within a quarter turn it hits two discs that
+    were further away than the skin, one of them of a wall. The same bits as with a new list in every step."""
+    rod = Clump(*[(2 * R * k, 0, R) for k in range(4)])
+    scene = [rod.at(0, 0, omega=500), SINGLE.at(0, 9e-3, type=3), Disc(-2e-3, -9e-3, 2 * R, type=2)]
+    deck = begin(rod, SINGLE) + "timestep 1e-6\nneigh_modify delay 0 every 1 check ${check}\nrun 2150\n" + END
+    lazy, eager = (
+        run(deck, tmp_path / check, discs=scene, ranks=ranks, kn=1e6, ks=2.5e5, check=check) for check in ("yes", "no")
+    )
+    assert "Neighbor list builds = 0" in lazy.log and "Neighbor list builds = 2150" in eager.log
+    assert lazy.end["omegaz"][0] < 300 and lazy.end["vx"][1] != 0 and lazy.end["vy"][0] > 0
+    assert same_bits(lazy.end, eager.end)
+    if ranks > 1:
+        alone = run(deck, tmp_path / "alone", discs=scene, kn=1e6, ks=2.5e5, check="yes")
+        assert same_bits(lazy.end, alone.end)
+
+
+@pytest.mark.parametrize(
+    ("law", "template"),
+    [("direct", "single"), ("direct", "discs 1 0 0 1"), ("incremental", "discs 1 3 -2 0.7"), ("direct", "mixed"), ("incremental", "mixed")],
+)  # fmt: skip
+def test_grains_of_one_disc(tmp_path: Path, law: str, template: str) -> None:
+    """The same bits as without fix cdem/shape; also if there is another grain somewhere, of several discs."""
+    motion = "fix move grains cdem/integrate\ntimestep 2e-7\nrun 5000\n" + END
+    discs = cloud(5, speed=2.0)
+    plain = run("include ${decks}/start.in\n" + motion, tmp_path / "plain", discs=discs, law=law).end
+    assert np.count_nonzero(plain["omegaz"] != [d.omega for d in discs]) > 15
+    if template == "mixed":
+        discs = [*discs, LONG.at(0.035, 0.035, type=3)]
+        shape = f"group grains type 3\nfix shape all cdem/shape type 1 single type 2 single type 3 {LONG.template}\n"
+    else:
+        shape = f"fix shape all cdem/shape type 1 {template} type 2 single\n"
+    box = (-0.02, 0.04, -0.02, 0.04)
+    end = run("include ${decks}/start.in\n" + shape + motion, tmp_path / "shape", discs=discs, box=box, law=law).end
+    first = Frame(end.step, {name: values[:25] for name, values in end.columns.items()})
+    assert same_bits(plain, first)
+
+
+# --- the time step ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("share", [0.99, 1.08])
+def test_time_step_limit_of_a_lattice(tmp_path: Path, share: float) -> None:
+    """Triples, each in stick with the six around it by 12 contacts, vibrate. The limit is that of the packing: below it
+    they go on for ever. Bloch's theorem has its eigenvalue 8.6 % above the true one at ks/kn = 1/4, so that from 1.042 of
+    the limit on the vibration grows without bound."""
+    n, kn, squeeze = 4, 1e8, 1e-4
+    random = np.random.default_rng(1)
+    width, height = 6 * R * (1 - squeeze), 2 * SQRT3 * R * (1 - squeeze)
+    scene = []
+    for k in range(4 * n * n):
+        x, y = width * (k % n), height * (k // n) / 2
+        vx, vy, omega = random.uniform(-1, 1, 3) * 1e-3
+        scene.append(TRIPLE.at(x + (width / 2 if k // n % 2 else 0) + R, y + R, vx, vy, omega / R))
+    deck = begin(TRIPLE, step="dt any") + f"""
+    run 0
+    variable dt equal {share}*f_move
+    timestep ${{dt}}
+    thermo 10
+    thermo_style custom step ke
+    run 3000
+    """
+    box = (0, n * width, 0, 2 * n * height)
+    kinetic = run(deck, tmp_path, discs=scene, box=box, bx="p", by="p", kn=kn, ks=kn / 4, hn=0, hs=0, phi=80).thermo["KinEng"]
+    assert (kinetic.max() < 5 * kinetic[0]) == (share < 1)
+    assert np.isfinite(kinetic).all()
+
+
+# --- mass, angle, pressure --------------------------------------------------------------------------
+
+
+def test_density_and_sizes(tmp_path: Path, ranks: int) -> None:
+    """`density` sets the mass of the group's grains, from the area of the union: here two discs of radius 1 that are 1
+    apart, in all of 2 (pi - acos(1/2) + sqrt(3)/4), in a grain of radius 1.5. Others keep theirs."""
+    scene = [Disc(6e-3 * (k - 2), 1e-3 * k, diameter, type=t) for k, (diameter, t) in enumerate(
+        [(3e-3, 1), (4e-3, 1), (5e-3, 3), (2e-3, 2), (4e-3, 3)]
+    )]  # fmt: skip
+    deck = "include ${decks}/start.in\ngroup grains type 3\n"
+    deck += "fix shape grains cdem/shape density 10 type 3 triple type 2 single type 1 discs 2 4 4 1 4 5 1\n"
+    deck += "fix move grains cdem/integrate dt auto\nrun 0\n" + END
+    end = run(deck, tmp_path, discs=scene, ranks=ranks).end
+    pair = 2 * (math.pi - math.acos(0.5) + SQRT3 / 4) / 1.5**2
+    triple = 3 * math.pi / (1 + 2 / SQRT3) ** 2
+    shares = [10 * pair, 10 * pair, 10 * triple, DENSITY * math.pi, 10 * triple]
+    assert end["mass"] == pytest.approx([share * d.radius**2 for share, d in zip(shares, scene, strict=True)], rel=1e-14)
+    assert end["radius"].tolist() == [d.radius for d in scene]
+
+
+def test_mass_of_created_grains(tmp_path: Path, ranks: int) -> None:
+    """cdem/create takes diameters as the circumscribed ones, and the area from the template."""
+    deck = """
+    units si
+    dimension 2
+    boundary f f p
+    processors ${px} ${py} 1
+    atom_style sphere
+    newton off
+    region box block 0 0.1 0 0.2 -0.005 0.005
+    create_box 2 box
+    fix shape all cdem/shape type 1 triple type 2 single
+    cdem/create 1 fill 60 region 0 0.1 0 0.2 diameter 0.004 0.008 power 0 density 26.5 seed 3
+    cdem/create 2 row 0.002 0.19 0.098 0.19 10 diameter 0.004 density 26.5
+    run 0
+    """
+    end = run(deck.replace("run 0\n", END), tmp_path, ranks=ranks).end
+    shares = np.where(end["type"] == 1, 3 * math.pi / (1 + 2 / SQRT3) ** 2, math.pi)
+    assert end["mass"] == pytest.approx(DENSITY * shares * end["radius"] ** 2, rel=1e-14)
+    assert end["radius"][:60].min() == pytest.approx(0.002, rel=0.01)
+    assert end["radius"][:60].max() == pytest.approx(0.004, rel=0.01)
+
+
+def angles(directory: Path, seed: int, ranks: int, more: str = "") -> np.ndarray:
+    scene = [TRIPLE.at(0.01 * (k % 20 + 0.5), 0.01 * (k // 20 + 0.5)) for k in range(400)]
+    scene[7] = Disc(scene[7].x, scene[7].y, type=2)
+    deck = begin(TRIPLE, step="dt auto", more=f"orient {seed}") + dump(1) + "run 0\n" + more
+    frames = run(deck, directory, discs=scene, box=(0, 0.2, 0, 0.2), ranks=ranks).dump("grains.dump")
+    return frames[-1]["f_move[4]"]
+
+
+def test_orient(tmp_path: Path, ranks: int) -> None:
+    """Angles spread evenly over a turn (Kolmogorov's test at 1 %), by seed and id alone; only once; not for walls."""
+    turned = angles(tmp_path / "turned", 4, ranks, more="run 0\n")
+    assert turned[7] == 0
+    grains = np.delete(turned, 7)
+    n = len(grains)
+    share = np.sort(grains) / (2 * math.pi)
+    assert share[0] >= 0 and share[-1] < 1
+    assert np.abs(share - (np.arange(n) + 0.5) / n).max() < 1.63 / math.sqrt(n)
+    assert abs(np.corrcoef(grains[:-1], grains[1:])[0, 1]) < 0.15  # ids that follow each other aren't alike
+    if ranks > 1:
+        assert turned.tolist() == angles(tmp_path / "alone", 4, 1).tolist()
+    else:
+        other = angles(tmp_path / "other", 5, 1)
+        assert abs(np.corrcoef(np.delete(other, 7), grains)[0, 1]) < 0.15
+
+
+@anywhere
+@pytest.mark.parametrize(("x", "y"), [(-0.004, 0.001), (0.017, -0.0195)], ids=["between-ranks", "periodic"])
+def test_virial(tmp_path: Path, law: str, ranks: int, x: float, y: float) -> None:
+    """P = force x vector between the centres of mass / area, for the contact of two grains beside their centres; the
+    force is kn overlap n."""
+    kn, overlap = 1e7, 2e-5
+    # The right disc of the upright triple against the big one of the other.
+    direction = np.array([math.cos(0.3), math.sin(0.3)])
+    branch = TRIPLE.offsets[1] + (2 * R - overlap) * direction - UNEVEN.offsets[0]
+    wrap = lambda c: math.remainder(c, 0.04)
+    scene = [TRIPLE.at(x, y), UNEVEN.at(wrap(x + branch[0]), wrap(y + branch[1]), type=3)]
+    deck = begin(TRIPLE, UNEVEN, step="dt auto") + """
+    compute p all pressure NULL virial
+    thermo_style custom step c_p[1] c_p[2] c_p[4] pe
+    thermo_modify format float %.17g
+    run 0
+    """
+    seen = run(deck, tmp_path, discs=scene, law=law, ranks=ranks, kn=kn, bx="p", by="p").thermo
+    force = kn * overlap * direction
+    expected = [branch[0] * force[0], branch[1] * force[1], branch[0] * force[1]]
+    assert [seen[f"c_p[{k}]"][0] * 0.04**2 for k in (1, 2, 4)] == pytest.approx(expected, rel=1e-9)
+    assert seen["PotEng"][0] == pytest.approx(kn * overlap**2 / 2, rel=1e-9)
+    assert abs(force[0] * branch[1] / (force[1] * branch[0]) - 1) > 0.1  # the force is not central
+
+
+# --- what is refused --------------------------------------------------------------------------------
+
+FILES = {
+    "good": b"# x y r\n0 0 1\r\n\n 2 0 1 # the second\n",
+    "empty": b"",
+    "comment": b"# nothing\n\n",
+    "two-columns": b"0 0 1\n2 0\n",
+    "four-columns": b"0 0 1 5\n",
+    "words": b"x y r\n0 0 1\n",
+    "commas": b"0,0,1\n",
+    "not-a-number": b"0 0 1\n2 0 nan\n",
+    "negative": b"0 0 1\n2 0 -1\n",
+    "binary": bytes(range(256)) * 8,
+}
+BOTH = "type 1 single type 2 single"
+REFUSED = {
+    "type 1 discs 0 type 2 single": "discs 0: must be a positive number",
+    "type 1 discs -3 0 0 1 type 2 single": "discs -3: must be a positive number",
+    "type 2 single type 1 discs 2 0 0 1 2 0": "5 values follow",
+    "type 2 single type 1 discs 1 0 0 1 5": "5",
+    "type 1 discs 2 0 0 1 2 0 type 2 single": "'type'",
+    "type 1 discs 1 0 a 1 type 2 single": "'a'",
+    "type 1 discs 1 0 0 0 type 2 single": "type 1, discs: disc 1 has radius 0",
+    "type 1 discs 2 0 0 1 1 0 -0.5 type 2 single": "disc 2 has radius -0.5",
+    "type 1 discs 1 0 0 nan type 2 single": "nan",
+    "type 1 discs 3 0 0 1 2 0 1 0 0 1 type 2 single": "disc 1 is a duplicate of, or lies inside, disc 3",
+    "type 1 discs 2 0 0 1 0.1 0 0.2 type 2 single": "disc 2 is a duplicate of, or lies inside, disc 1",
+    "type 1 discs 2 0 0 1 3 0 1 type 2 single": "disc 2 is disconnected from disc 1",
+    "type 1 triple": "atom type 2 has no template",
+    "": "atom type 1 has no template",
+    "type 3 single " + BOTH: "type 3 must be between 1 and 2",
+    "type 0 single " + BOTH: "type 0 must be between 1 and 2",
+    "type 1 triple " + BOTH: "type 1 has two templates",
+    "type 1 quadruple type 2 single": "type 1: unknown template quadruple; allowed: single, triple, discs, file",
+    "type 1": "type 1: unknown template",
+    BOTH + " density 0": "density 0 must be positive",
+    BOTH + " density -26.5": "density -26.5 must be positive",
+    BOTH + " density": "density needs a value",
+    BOTH + " orient 0": "orient 0: the seed must be positive",
+    BOTH + " orient -4": "orient -4: the seed must be positive",
+    BOTH + " colour red": "unknown keyword colour; allowed: type, density, orient",
+    BOTH + f"\nfix more all cdem/shape {BOTH}": "Fix cdem/shape more: there is one already, shape",
+    "type 1 file": "file needs a name",
+    "type 1 file missing type 2 single": "file missing: No such file",
+    "type 1 file empty type 2 single": "file empty: it has no discs",
+    "type 1 file comment type 2 single": "file comment: it has no discs",
+    "type 1 file two-columns type 2 single": "two-columns line 2 is not 'x y r': 2 0",
+    "type 1 file four-columns type 2 single": "four-columns line 1 is not 'x y r': 0 0 1 5",
+    "type 1 file words type 2 single": "words line 1 is not 'x y r': x y r",
+    "type 1 file commas type 2 single": "commas line 1 is not 'x y r': 0,0,1",
+    "type 1 file not-a-number type 2 single": "not-a-number line 2 is not 'x y r': 2 0 nan",
+    "type 1 file negative type 2 single": "file negative: disc 2 has radius -1",
+    "type 1 file binary type 2 single": "binary",
+}
+
+
+def offer(arguments: str, directory: Path) -> tuple[int, str]:
+    write_data(directory / "discs.data", [Disc(0, 0), Disc(0.01, 0, type=2)], (-0.02, 0.02, -0.02, 0.02))
+    for name, content in FILES.items():
+        (directory / name).write_bytes(content)
+    deck = f"include ${{decks}}/start.in\nfix shape all cdem/shape {arguments}\n"
+    return start(deck + 'print "not refused"\nfix move grains cdem/integrate dt auto\nrun 0\n', directory)
+
+
+def test_good_templates(tmp_path: Path) -> None:
+    for arguments in (BOTH, "type 1 triple type 2 single", "type 1 file good type 2 single", "type 1 discs 1 0 0 1 type 2 single"):
+        status, output = offer(arguments, tmp_path)
+        assert status == 0 and "not refused" in output, arguments
+
+
+@pytest.mark.parametrize(("arguments", "message"), REFUSED.items(), ids=[key.replace("\n", "; ") for key in REFUSED])
+def test_refused(tmp_path: Path, arguments: str, message: str) -> None:
+    """Before the run, with the value in the message."""
+    status, output = offer(arguments, tmp_path)
+    assert status != 0
+    assert "not refused" not in output
+    [error] = [line for line in output.splitlines() if line.startswith("ERROR")]
+    assert message in error
