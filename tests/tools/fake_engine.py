@@ -14,7 +14,7 @@ from pathlib import Path
 import synthetic
 
 ROWS = 100
-ROWS_PER_RESTART = 10
+ROWS_PER_RESTART = 5
 
 
 def main() -> int:

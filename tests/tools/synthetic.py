@@ -98,7 +98,9 @@ def write_frames(folder: Path, steps: list[int], travel: float, width: float = 0
         centres = start + np.column_stack(
             [shear * (0.5 - start[:, 1] / (2 * half_height)) + shear / 2, 0 * start[:, 1]]
         )
-        angle = 2 * shear / radius * np.sin(40 * start[:, 0]) * np.exp(-(((start[:, 1] - half_height) / 0.02) ** 2))
+        angle = 0.01 * np.arange(len(start)) + 2 * shear / radius * np.sin(40 * start[:, 0]) * np.exp(
+            -(((start[:, 1] - half_height) / 0.02) ** 2)
+        )
         border = walls(width, half_height, 2 * radius, shear)
         where = np.vstack([centres, border])
         angles = np.concatenate([angle, np.zeros(len(border))])

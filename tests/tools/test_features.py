@@ -19,7 +19,11 @@ def judged(tau: np.ndarray) -> features.Verdict:
 
 def test_proportional():
     assert judged(np.array([55.0, 104, 151, 206])).holds is True
-    assert judged(np.array([55.0, 104, 103, 206])).holds is False, "must rise with every stress"
+    many = np.arange(1, 13) * 100.0
+    tau = 0.5 * many - 26 * (many == 700) + 26 * (many == 600)
+    verdict = features.proportional(many, tau, fit_line(many, tau, np.ones(12)))
+    assert "R² of the line 0.99" in verdict.reason
+    assert verdict.holds is False, "must rise with every stress"
     assert judged(np.array([50.0, 60, 61, 200])).holds is False, "must be a line"
     assert judged(np.array([55.0, 104])).holds is None
 

@@ -62,6 +62,15 @@ def test_rising_curve_has_its_peak_at_the_boundary():
     assert peak.position == pytest.approx(s[-1])
 
 
+@pytest.mark.parametrize("end, at_boundary", [(8, True), (-2, False)])
+def test_the_end_counts_only_if_it_is_higher(end, at_boundary):
+    s = displacement()
+    bump = 20 * np.sin(2 * np.pi * s / 6.5) + end * s
+    peak = find_peak(fit_curve(s, bump + correlated_noise(np.random.default_rng(6), ROWS, 1, 8)))
+    assert peak.at_boundary == at_boundary
+    assert peak.position == pytest.approx(s[-1] if at_boundary else 1.53, abs=0.3)
+
+
 def test_same_data_same_result():
     s = displacement()
     y = softening(s, 80, 2.5, 60) + correlated_noise(np.random.default_rng(1), ROWS, 4, 8)

@@ -176,6 +176,15 @@ def test_a_damaged_dump_is_named(frames, line, text, message):
     assert str(frames / "grains.dump") in str(error.value)
 
 
+def test_a_frame_that_lacks_a_row_is_named(frames):
+    path = frames / "grains.dump"
+    lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
+    rows = int(lines[3])
+    path.write_text("".join(lines[:11] + lines[12:]), encoding="utf-8")
+    with pytest.raises(ShearboxError, match=f"line 1: a frame of {rows - 1} rows that should have {rows}"):
+        Dump(path, GRAINS)
+
+
 def test_an_empty_dump_is_named(frames):
     (frames / "grains.dump").write_text("", encoding="utf-8")
     with pytest.raises(ShearboxError, match="grains.dump: the file is empty"):

@@ -82,12 +82,12 @@ def test_another_stress_may_follow(folder):
 def test_stopped_and_taken_up_again(folder, sign, status):
     options = ("--stress", "100", "200", "300")
     engine = subprocess.Popen(
-        command(folder, *options), env={**os.environ, "FAKE_SECONDS": "20"}, stdout=subprocess.PIPE,
+        command(folder, *options), env={**os.environ, "FAKE_SECONDS": "40"}, stdout=subprocess.PIPE,
         stderr=subprocess.PIPE, text=True,
     )  # fmt: skip
-    wait_for(lambda: all((folder / s / "shear.restart.b").exists() for s in ("100", "200")))
+    wait_for(lambda: all((folder / s / f"shear.restart.{k}").exists() for s in ("100", "200") for k in "ab"))
     engine.send_signal(sign)
-    _, message = engine.communicate(timeout=30)
+    _, message = engine.communicate(timeout=15)
     assert engine.returncode == status
     assert "To go on:" in message and str(folder) in message
     with (folder / ".lock").open("r+") as lock:  # the engines have ended: nobody holds the lock

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""When a phase counts as done, and how far a shear phase has come."""
+
+from pathlib import Path
+
+import pytest
+
+from shearbox_tools.models import all_models, find_model
+from shearbox_tools.phases import disk_need, packing, shearing
+from shearbox_tools.request import Request
+
+GOODBYE = "...\nTotal wall time: 0:00:01\n"
+
+
+def request(name: str = "TypeA_10x5_4-8_1-circle_350") -> Request:
+    return Request(find_model(name, all_models()), (100.0, 200.0), seed=7)
+
+
+@pytest.mark.parametrize(
+    "table, log, done",
+    [
+        ("a,b\n1,2\n", GOODBYE, True),
+        ("a,b\n1,2\n", "...\n", False),
+        ("a,b\n1,", GOODBYE, False),
+        ("", GOODBYE, False),
+        (None, GOODBYE, False),
+        ("a,b\n1,2\n", None, False),
+    ],
+)
+def test_done_is_a_whole_table_and_an_engine_that_said_goodbye(tmp_path, table, log, done):
+    phase = packing(tmp_path, request())
+    phase.folder.mkdir()
+    for path, text in ((phase.folder / "packed.csv", table), (phase.log, log)):
+        if text is not None:
+            path.write_text(text, encoding="utf-8")
+    assert phase.done is done
+
+
+def test_variables_of_the_decks(tmp_path):
+    consolidate, shear = shearing(tmp_path, request(), 100)
+    common = {"model": "TypeA_10x5_4-8_1-circle_350", "seed": "7", "law": "direct", "dt": "auto", "sigma": "100"}
+    assert consolidate.variables == {**common, "packed": str(tmp_path / "packed" / "packed.restart")}
+    assert shear.variables == {**common, "speed": "2", "travel": "8"}
+    assert consolidate.folder == shear.folder == tmp_path / "100"
+    assert consolidate.deck.is_file() and shear.deck.is_file()
+
+
+@pytest.mark.parametrize(
+    "text, reached", [("# step s\n5000 0.25 1\n", 0.25), ("5000 0.25 1\n10000 0.5", 0.25), ("# step s\n", 0), ("", 0)]
+)
+def test_displacement_of_the_last_whole_line(tmp_path: Path, text, reached):
+    shear = shearing(tmp_path, request(), 100)[1]
+    shear.folder.mkdir()
+    assert shear.displacement() == 0
+    (shear.folder / "shear.dat").write_text(text, encoding="utf-8")
+    assert shear.displacement() == reached
+
+
+def test_disk_need_grows_with_what_is_left(tmp_path):
+    small, large = disk_need(request(), tmp_path), disk_need(request("TypeD_30x10_2-4_1-circle_9000"), tmp_path)
+    assert 20e6 < small < 100e6 < large < 2e9
+    for phase, product in zip(shearing(tmp_path, request(), 100), ("consolidated.csv", "shear.done")):
+        phase.folder.mkdir(exist_ok=True)
+        (phase.folder / product).write_text("done\n", encoding="utf-8")
+        phase.log.write_text(GOODBYE, encoding="utf-8")
+    assert disk_need(request(), tmp_path) == pytest.approx(small / 2, abs=1)
