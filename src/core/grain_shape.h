@@ -38,6 +38,8 @@ public:
       unit_inertia = 0.5;
     }
     survey_surface();
+    for (const Member &d : members)
+      furthest = std::max(furthest, std::hypot(d.x, d.y));
   }
 
   static GrainShape single() { return GrainShape({{0, 0, 1}}); }
@@ -62,12 +64,7 @@ public:
   double tangential_levers() const { return surface.tangential; }
 
   // Largest distance of a disc centre from the centre of mass, over the circumscribed radius.
-  double reach() const {
-    double most = 0;
-    for (const Member &d : members)
-      most = std::max(most, std::hypot(d.x, d.y));
-    return most;
-  }
+  double reach() const { return furthest; }
 
 private:
   struct Arc {
@@ -276,7 +273,7 @@ private:
   };
 
   std::vector<Member> members;
-  double unit_area, unit_inertia;
+  double unit_area, unit_inertia, furthest = 0;
   Surface surface;
 };
 

@@ -231,6 +231,10 @@ void PairCDEM::fill_clump_rows(double forward) {
     const double vx = predict ? v[0] + forward * a[FixCDEMIntegrate::AX] : v[0];
     const double vy = predict ? v[1] + forward * a[FixCDEMIntegrate::AY] : v[1];
     const double spin = predict ? omega + forward * a[FixCDEMIntegrate::ALPHA] : omega;
+    if (first_row[i + 1] - first_row[i] == 1) {
+      *row++ = {x[0], x[1], v[0], v[1], vx, vy, omega, spin};
+      continue;
+    }
     const double inward = half * omega * omega;
     const double c = atom->radius[i] * std::cos(a[FixCDEMIntegrate::ANGLE]);
     const double s = atom->radius[i] * std::sin(a[FixCDEMIntegrate::ANGLE]);
@@ -254,9 +258,11 @@ bool PairCDEM::turned_out_of_list() const {
   const double most = 0.5 * neighbor->skin;
   for (std::size_t i = 0; i < built_at.size(); i++) {
     const Place &then = built_at[i];
+    if (then.arm == 0)
+      continue;
     const double dx = atom->x[i][0] - then.x, dy = atom->x[i][1] - then.y;
     const double turn = std::fabs(integrate->state[i][FixCDEMIntegrate::ANGLE] - then.angle);
-    const double left = most - turn * atom->radius[i] * shapes[atom->type[i]]->reach();
+    const double left = most - turn * then.arm;
     if (left < 0 || dx * dx + dy * dy > left * left)
       return true;
   }
@@ -275,7 +281,8 @@ void PairCDEM::build_list() {
     return;
   built_at.resize(atom->nlocal + atom->nghost);
   for (std::size_t i = 0; i < built_at.size(); i++)
-    built_at[i] = {atom->x[i][0], atom->x[i][1], integrate->state[i][FixCDEMIntegrate::ANGLE]};
+    built_at[i] = {atom->x[i][0], atom->x[i][1], integrate->state[i][FixCDEMIntegrate::ANGLE],
+                   atom->radius[i] * shapes[atom->type[i]]->reach()};
 }
 
 // The order of all sums: by the id of the grain, then by the disc.

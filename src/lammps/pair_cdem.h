@@ -123,7 +123,7 @@ private:
   std::vector<const cdem::GrainShape *> shapes; // by type
   std::vector<int> first_row, grain_of_row;     // empty unless clumps
   struct Place {
-    double x, y, angle;
+    double x, y, angle, arm; // arm: to the furthest disc centre
   };
   std::vector<Place> built_at; // of the grains when the list was built, empty unless clumps
 
