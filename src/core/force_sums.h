@@ -5,7 +5,6 @@
 #include "disc_pairs.h"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 namespace cdem {
@@ -24,7 +23,6 @@ public:
       std::sort(as_a.begin(d), as_a.end(d), [&](int k, int l) { return before(pairs.b[k], pairs.b[l]); });
       std::sort(as_b.begin(d), as_b.end(d), [&](int k, int l) { return before(pairs.a[k], pairs.a[l]); });
     }
-    order_visits(n);
   }
 
   // Calls visit(k) for every pair k of a disc.
@@ -37,12 +35,6 @@ public:
   DiscForce operator()(const DiscPairs &pairs, int disc) const {
     const Forces<double> b = as_b.sum(pairs, disc), a = as_a.sum(pairs, disc);
     return {a.fx - b.fx, a.fy - b.fy, a.torque_a + b.torque_b};
-  }
-
-  // Calls visit(disc, force) for every disc.
-  template <class Visit> void for_all(const DiscPairs &pairs, Visit visit) const {
-    for (int disc : visits)
-      visit(disc, (*this)(pairs, disc));
   }
 
   double bytes() const { return as_a.bytes() + as_b.bytes(); }
@@ -90,21 +82,7 @@ private:
     std::vector<int> next; // of build()
   };
 
-  // Discs with as many pairs follow each other, within blocks that fit the cache: the loops over the pairs of a disc
-  // then end when the processor expects it, which about halves the time.
-  void order_visits(int n) {
-    constexpr int BLOCK = 1024;
-    visits.resize(n);
-    for (int d = 0; d < n; d++)
-      visits[d] = d;
-    auto counts = [this](int d) { return std::make_pair(as_b.end(d) - as_b.begin(d), as_a.end(d) - as_a.begin(d)); };
-    for (int first = 0; first < n; first += BLOCK)
-      std::stable_sort(visits.begin() + first, visits.begin() + std::min(first + BLOCK, n),
-                       [&](int d, int e) { return counts(d) < counts(e); });
-  }
-
   Role as_a, as_b;
-  std::vector<int> visits;
 };
 
 } // namespace cdem

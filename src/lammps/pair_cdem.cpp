@@ -365,11 +365,12 @@ void PairCDEM::recall_history(int k) {
 
 void PairCDEM::sum_disc_forces() {
   double *const f = atom->f[0], *const torque = atom->torque[0];
-  sums.for_all(pairs, [=](int i, const cdem::DiscForce &sum) {
+  for (int i = 0; i < atom->nlocal; i++) {
+    const cdem::DiscForce sum = sums(pairs, i);
     f[3 * i] += sum.fx;
     f[3 * i + 1] += sum.fy;
     torque[3 * i + 2] += sum.torque;
-  });
+  }
 }
 
 void PairCDEM::sum_clump_forces() {
