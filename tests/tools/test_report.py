@@ -132,6 +132,7 @@ def test_an_unfinished_stress_is_said(folder):
     synthetic.write_shear(folder / "200" / "shear.dat", synthetic.curves(200, 8), slice(0, 300))
     (folder / "200" / "shear.done").unlink()
     assert "200 kPa has reached 3.00 mm only" in report(folder).read_text(encoding="utf-8")
+    assert not summary(folder)["complete"]
 
 
 def test_too_few_rows_are_said(folder):
@@ -145,6 +146,7 @@ def test_a_curve_that_still_rises_is_said(folder):
     synthetic.write_shear(folder / "200" / "shear.dat", curve)
     assert "200 kPa: τ has no peak within the travel" in report(folder).read_text(encoding="utf-8")
     assert summary(folder)["stresses"][1]["peak_at_boundary"]
+    assert summary(folder)["complete"]
 
 
 DAMAGED = [

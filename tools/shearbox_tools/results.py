@@ -60,15 +60,21 @@ class Shear:
 
 @dataclass(frozen=True)
 class Results:
-    """All that a folder holds; `problems` are damages, `notes` what is merely not there yet."""
+    """All that a folder holds; `problems` are damages, `notes` what else a reader must know."""
 
     folder: Path
     identity: dict[str, Any]
+    stresses: list[float]  # asked for, kPa
     packing: dict[str, float] | None
     consolidations: dict[float, dict[str, float]]
     shears: list[Shear]
     problems: list[str]
     notes: list[str]
+
+    @property
+    def complete(self) -> bool:
+        """Whether all that was asked for is there, to the end and undamaged."""
+        return not self.problems and len(self.shears) == len(self.stresses) and all(s.complete for s in self.shears)
 
     @cached_property
     def line(self) -> Line | None:
@@ -108,7 +114,7 @@ def read_results(folder: Path) -> Results:
                 notes.append(
                     f"{sigma:g} kPa: τ has no peak within the travel; its greatest value, at {where}, is taken"
                 )
-    return Results(folder, record["identity"], packing, consolidations, shears, problems, notes)
+    return Results(folder, record["identity"], record["stresses"], packing, consolidations, shears, problems, notes)
 
 
 def _read_shear(

@@ -29,7 +29,7 @@ def summarise(results: Results) -> dict[str, Any]:
         "travel_mm": identity["travel_mm"],
         "grains": identity["model ngrains"],
         "dt_s": _time_step(results),
-        "complete": not results.notes and not results.problems and bool(results.shears),
+        "complete": results.complete,
         "notes": results.notes,
         "problems": results.problems,
         **_strength(results.line),
