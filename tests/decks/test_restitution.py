@@ -85,17 +85,21 @@ def restitution_without_pull(h: float) -> float:
     return math.exp(-h / root * (math.pi - math.atan2(2 * h * root, 1 - 2 * h * h)))
 
 
-# Median over the phases. The error is second order in the step: at 40 steps a contact 3e-6, 4.4e-4, 2.1e-3 and 5.5e-3 for
-# e, due to the two half steps at either end, in which the dashpot's force is only estimated; and 2.6e-4, 2.4e-4, 9e-5 and
-# 1.6e-3 for the duration, of which (pi/40)^2/24 = 2.6e-4 is velocity Verlet's own, whose frequency is too high.
-TOLERANCE = {0: 1e-5, 0.05: 6e-4, 0.215: 3e-3, 0.5: 8e-3}
+# Largest error over the phases, at 40 steps a contact. It is second order in the step: measured are 3e-5, 6e-4, 2.9e-3 and
+# 9e-3 for e, due to the two half steps at either end, in which the dashpot's force is only estimated; and 2.6e-4, 2.5e-4,
+# 1e-4 and 1.4e-3 for the duration, of which (pi/40)^2/24 = 2.6e-4 is velocity Verlet's own, whose frequency is too high.
+TOLERANCE = {0: 5e-5, 0.05: 8e-4, 0.215: 4e-3, 0.5: 1.2e-2}
+
+
+def largest_error(measured: np.ndarray, expected: float) -> float:
+    return float(np.abs(measured / expected - 1).max())
 
 
 @pytest.mark.parametrize("h", TOLERANCE)
 def test_restitution_and_duration(tmp_path: Path, law: str, ranks: int, h: float) -> None:
     measured, durations = collide(tmp_path, h, 40, law=law, ranks=ranks)
     for kind in KINDS:
-        assert np.median(measured[kind]) == pytest.approx(restitution(h), rel=TOLERANCE[h]), kind
+        assert largest_error(measured[kind], restitution(h)) < TOLERANCE[h], kind
         assert np.median(durations[kind]) == pytest.approx(
             math.pi / (W0 * math.sqrt(1 - h * h)), rel=2e-3 if h == 0.5 else 4e-4
         ), kind
@@ -105,27 +109,18 @@ def test_restitution_and_duration(tmp_path: Path, law: str, ranks: int, h: float
 def test_restitution_if_the_dashpot_may_not_pull(tmp_path: Path, law: str, ranks: int, h: float) -> None:
     measured, _ = collide(tmp_path, h, 40, law=law, ranks=ranks, cut="yes")
     for kind in KINDS:
-        assert np.median(measured[kind]) == pytest.approx(restitution_without_pull(h), rel=TOLERANCE[h]), kind
+        assert largest_error(measured[kind], restitution_without_pull(h)) < TOLERANCE[h], kind
 
 
 @pytest.mark.parametrize("h", [0.05, 0.215, 0.5])
 def test_restitution_is_second_order_in_the_time_step(tmp_path: Path, law: str, h: float) -> None:
-    """Errors fall by 4 when the step is halved; 3.5 leaves room for the next order, a first-order scheme has 2."""
+    """In all phases: the largest error falls by 4 when the step is halved. 3 leaves room for the higher orders, as the
+    largest of 128 phases is not quite the largest of all; a first-order scheme has 2."""
     error = {}
     for n in (20, 40, 80):
         measured, _ = collide(tmp_path / str(n), h, n, kinds=["equal"], phases=128, law=law)
-        error[n] = abs(np.median(measured["equal"]) / restitution(h) - 1)
-    assert error[20] / error[40] > 3.5
-    assert error[40] / error[80] > 3.5
+        error[n] = largest_error(measured["equal"], restitution(h))
+    assert error[20] / error[40] > 3
+    assert error[40] / error[80] > 3
     if h == 0.215:
-        assert error[20] < 0.01  # stock LAMMPS: 0.034
-
-
-def test_rare_phases_are_first_order(tmp_path: Path, law: str) -> None:
-    """A contact that opens when it is not expected to loses half a step of its dashpot: c v dt/2 of the momentum m v,
-    that is pi h/n of the velocity, in a share of the collisions that falls with the step."""
-    h, n = 0.215, 40
-    measured, _ = collide(tmp_path, h, n, kinds=["equal"], phases=128, law=law)
-    error = abs(measured["equal"] / restitution(h) - 1)
-    assert error.max() < 1.5 * math.pi * h / n
-    assert np.count_nonzero(error > 0.005) < 0.06 * error.size
+        assert error[20] < 0.016  # stock LAMMPS: 0.034 at best
