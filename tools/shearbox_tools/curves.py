@@ -98,8 +98,9 @@ def _rate(results: Results) -> Figure:
         s = np.linspace(end_zone(lid.span), lid.span - end_zone(lid.span), 300)
         axes.plot(s, lid.series.deriv()(s), color=colour, lw=1.7)
         axes.plot(*steepest_dilatancy(lid), "^", ms=6, color=colour)
-        axes.plot(shear.peak.position, lid.series.deriv()(shear.peak.position), "o", ms=5.5, color="white", mec=colour,
-                  mew=1.6)  # fmt: skip
+        if not shear.peak.at_boundary:
+            rate = lid.series.deriv()(shear.peak.position)
+            axes.plot(shear.peak.position, rate, "o", ms=5.5, color="white", mec=colour, mew=1.6)
     axes.axhline(0, color="#8a929b", lw=0.8)
     _finish(axes, results)
     return figure
