@@ -8,6 +8,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TaskID, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 SECONDS_BETWEEN_LINES = 30.0
+ENOUGH = 0.005  # of all displacement, for a first estimate of the time left
 
 
 class Display(Protocol):
@@ -122,7 +123,9 @@ class LineDisplay:
         assert self._start is not None
         begun, then_left = self._start
         done = then_left - self._left
-        return f", about {duration(self._left * (now - begun) / done)} left" if done > 0 else ""
+        if done < ENOUGH * self._total:  # the lower half gets up to speed first
+            return ""
+        return f", about {duration(self._left * (now - begun) / done)} left"
 
 
 def duration(seconds: float) -> str:
