@@ -23,12 +23,15 @@ GRID = {1: (1, 1), 2: (2, 1), 4: (2, 2)}  # ranks along x and y: a border always
 TIMEOUT = 60  # s; no case here takes more than a few
 DENSITY = 26.5  # kg/m^2, areal: 2650 kg/m^3 x 0.01 m
 
-# Open MPI: more ranks than cores is fine for cases this small, and so is root.
+# Open MPI: more ranks than cores is fine for cases this small, and so is root. Without mpirun no daemon is wanted, and
+# after an error no second of grace: both take longer than the case.
 ENVIRONMENT = os.environ | {
     "OMP_NUM_THREADS": "1",
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
     "OMPI_MCA_mpi_yield_when_idle": "1",
+    "OMPI_MCA_ess_singleton_isolated": "1",
+    "OMPI_MCA_odls_base_sigkill_timeout": "0",
 }
 
 

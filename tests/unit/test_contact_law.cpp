@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/contact_law.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace cdem;
+
+namespace {
+
+constexpr double KN = 1e8, KS = 2.5e7, HN = 0.215, HS = 0.3, MU = 0.5, DT = 1e-7, MASS = 2e-4;
+const Material steel = material(KN, KS, HN, HS, MU);
+
+struct Scene {
+  Disc<double> a{}, b{};
+  double radius_a = 2e-3, radius_b = 1.5e-3;
+  History<double> history{};
+
+  // Disc b in the origin, disc a to its right by the sum of the radii less the overlap.
+  explicit Scene(double overlap) { a.x = radius_a + radius_b - overlap; }
+
+  // The velocities of the half step are those of the full one, as in uniform motion.
+  Scene &moving(double vx, double vy, double omega_a = 0, double omega_b = 0) {
+    a.vx = a.vx_half = vx;
+    a.vy = a.vy_half = vy;
+    a.omega = a.omega_half = omega_a;
+    b.omega = b.omega_half = omega_b;
+    return *this;
+  }
+
+  template <Law law = Law::direct, bool limit_damping = false>
+  Forces<double> force(double dt = DT, const Material &m = steel) {
+    const Pair<double> pair{radius_a + radius_b, radius_a - radius_b, 2 * std::sqrt(MASS)};
+    return contact_force<law, limit_damping, double>(relative(a, b), pair, m, dt, history);
+  }
+};
+
+double dashpot(double h, double k) { return 2 * h * std::sqrt(MASS * k); }
+
+TEST(ContactLaw, ApartThereIsNoForceAndNoMemory) {
+  Scene s(-1e-6);
+  s.history = {5, 7};
+  const auto f = s.moving(0.1, -0.3, 20).force<Law::incremental>();
+  EXPECT_EQ(f.fx, 0);
+  EXPECT_EQ(f.fy, 0);
+  EXPECT_EQ(f.torque_a, 0);
+  EXPECT_EQ(f.torque_b, 0);
+  EXPECT_EQ(s.history.es, 0);
+  EXPECT_EQ(s.history.en, 0);
+}
+
+TEST(ContactLaw, AtRestTheNormalForceIsStiffnessTimesOverlap) {
+  EXPECT_NEAR(Scene(1e-6).force<Law::direct>().fx, KN * 1e-6, 1e-9 * KN * 1e-6);
+  EXPECT_NEAR(Scene(1e-6).force<Law::incremental>().fx, KN * 1e-6, 1e-9 * KN * 1e-6); // met without a history
+}
+
+TEST(ContactLaw, DashpotsAreTwiceTheDampingRatioTimesRootOfMassAndStiffness) {
+  const double u = 1e-3; // slow enough not to reach the limit of friction
+  const auto normal = Scene(1e-6).moving(-u, 0).force(0);
+  EXPECT_NEAR(normal.fx, KN * 1e-6 + dashpot(HN, KN) * u, 1e-9 * KN * 1e-6);
+  const auto tangential = Scene(1e-6).moving(0, u).force(0);
+  EXPECT_NEAR(tangential.fy, -dashpot(HS, KS) * u, 1e-9 * KN * 1e-6);
+}
+
+TEST(ContactLaw, IncrementsFollowTheOverlap) {
+  Scene s(1e-6);
+  s.force<Law::incremental>(0);
+  EXPECT_NEAR(s.history.en, KN * 1e-6, 1e-7);
+  const double speed = -0.2;
+  for (int step = 0; step < 20; ++step) {
+    s.a.x += speed * DT;
+    s.moving(speed, 0).force<Law::incremental>();
+  }
+  EXPECT_NEAR(s.history.en, KN * (1e-6 - 20 * speed * DT), 1e-6);
+}
+
+TEST(ContactLaw, TheTangentialSpringAddsUpTheSlipOfTheRims) {
+  for (const auto &[vy, omega_a, omega_b] : {std::array{0.01, 0., 0.}, {0., 3., 0.}, {0., 0., 3.}, {0.02, -4., 2.}}) {
+    const double overlap = 1e-6;
+    Scene s(overlap);
+    s.moving(0, vy, omega_a, omega_b);
+    for (int step = 0; step < 3; ++step)
+      s.force();
+    // Lever arms end in the middle of the overlap. The disc's own turning about the other is slip, too: a third of a
+    // step's worth of second order is what the tolerance leaves.
+    const double slip = vy - omega_a * (s.radius_a - overlap / 2) - omega_b * (s.radius_b - overlap / 2);
+    EXPECT_NEAR(s.history.es, -KS * slip * 3 * DT, 1e-6 * KS * std::fabs(slip) * 3 * DT);
+  }
+}
+
+TEST(ContactLaw, TorquesActAtTheContactPoint) {
+  Scene s(1e-6);
+  s.history.es = 20;
+  const auto f = s.force(0);
+  EXPECT_NEAR(f.fy, 20, 1e-12);
+  EXPECT_NEAR(f.torque_a, -20 * (s.radius_a - 0.5e-6), 1e-15);
+  EXPECT_NEAR(f.torque_b, -20 * (s.radius_b - 0.5e-6), 1e-15);
+  // No moment about the origin in all: x_a x F + torques.
+  EXPECT_NEAR(s.a.x * f.fy + f.torque_a + f.torque_b, 0, 1e-16);
+}
+
+TEST(ContactLaw, FrictionIsLimitedExactlyAndHasNoDashpotThen) {
+  for (double direction : {1., -1.}) {
+    Scene s(1e-6);
+    const auto f = s.moving(0, direction * 100).force();
+    const double overlap = s.radius_a + s.radius_b - s.a.x, limit = MU * (KN * overlap);
+    EXPECT_EQ(s.history.es, -direction * limit);
+    EXPECT_DOUBLE_EQ(f.fy, -direction * limit);
+  }
+}
+
+TEST(ContactLaw, TheLimitIsThatOfTheElasticForceNotOfTheDashpot) {
+  Scene s(1e-6);
+  const auto f = s.moving(-0.5, 100).force();
+  EXPECT_GT(f.fx, 1.2 * KN * 1e-6);
+  EXPECT_NEAR(f.fy, -MU * KN * 1e-6, 1e-9 * KN * 1e-6);
+}
+
+TEST(ContactLaw, ASmoothWallHasNoTangentialForce) {
+  Scene s(1e-6);
+  const auto f = s.moving(-0.1, 10, 100).force(DT, material(KN, 0, HN, HS, MU));
+  EXPECT_EQ(f.fy, 0);
+  EXPECT_EQ(f.torque_a, 0);
+}
+
+TEST(ContactLaw, WithoutTimeTheHistoryStays) {
+  Scene s(1e-6);
+  s.history = {12, 99};
+  s.moving(0.1, 0.1, 5).force<Law::incremental>(0);
+  EXPECT_EQ(s.history.es, 12);
+  EXPECT_EQ(s.history.en, 99);
+}
+
+TEST(ContactLaw, TheDashpotMayPullUnlessItIsCut) {
+  const double apart = 1; // m/s
+  EXPECT_LT(Scene(1e-7).moving(apart, 0).force(0).fx, 0);
+  EXPECT_EQ((Scene(1e-7).moving(apart, 0).force<Law::direct, true>(0).fx), 0);
+}
+
+TEST(ContactLaw, ActionIsReaction) {
+  Scene s(1e-6);
+  s.moving(-0.01, 0.02, 3, -5);
+  s.a.y = 1e-4;
+  s.b.vx = s.b.vx_half = 0.003;
+  Scene mirror = s;
+  std::swap(mirror.a, mirror.b);
+  std::swap(mirror.radius_a, mirror.radius_b);
+  const auto f = s.force(), g = mirror.force();
+  EXPECT_EQ(f.fx, -g.fx);
+  EXPECT_EQ(f.fy, -g.fy);
+  EXPECT_EQ(f.torque_a, g.torque_b);
+  EXPECT_EQ(f.torque_b, g.torque_a);
+  EXPECT_EQ(s.history.es, mirror.history.es); // t turns with n, and so does the slip
+}
+
+TEST(ContactLaw, NoDirectionIsSpecial) {
+  Scene s(1e-6);
+  const auto f = s.moving(-0.01, 0.02, 3, -5).force();
+  for (double angle : {0.3, 1.5707963, 2.5, -1.0}) {
+    const double c = std::cos(angle), n = std::sin(angle);
+    Scene turned(1e-6);
+    turned.moving(-0.01 * c - 0.02 * n, -0.01 * n + 0.02 * c, 3, -5);
+    turned.a.x = s.a.x * c;
+    turned.a.y = s.a.x * n;
+    const auto g = turned.force();
+    EXPECT_NEAR(g.fx, f.fx * c - f.fy * n, 1e-8);
+    EXPECT_NEAR(g.fy, f.fx * n + f.fy * c, 1e-8);
+    EXPECT_NEAR(g.torque_a, f.torque_a, 1e-11);
+  }
+}
+
+// Leapfrog: the displacement of a step over its length is the velocity of the half step.
+double spring_after_turning_as_one_body(int steps) {
+  const double w = 1000, step = 1e-3 / steps;
+  Scene s(1e-6);
+  const double distance = s.a.x;
+  for (int k = 0; k < steps; ++k) {
+    const double from = k * w * step, to = (k + 1) * w * step;
+    s.a.x = distance * std::cos(to);
+    s.a.y = distance * std::sin(to);
+    s.moving(distance * (std::cos(to) - std::cos(from)) / step, distance * (std::sin(to) - std::sin(from)) / step, w,
+             w);
+    s.force(step, material(KN, KS, HN, HS, 1e9));
+  }
+  return s.history.es;
+}
+
+TEST(ContactLaw, TwoDiscsThatTurnAsOneBodyDoNotSlip) {
+  // By one radian: the rims would wind up the spring to ks x distance, if each turned alone.
+  const double coarse = spring_after_turning_as_one_body(100), fine = spring_after_turning_as_one_body(200);
+  EXPECT_LT(std::fabs(coarse), 2e-5 * KS * 3.5e-3);
+  EXPECT_NEAR(coarse / fine, 4, 0.1); // second order
+}
+
+TEST(Presence, AContactThatLastsHasItsFullShare) {
+  const auto p = presence(1e-6, 0.1, 1e-7);
+  EXPECT_EQ(p.spring, 1);
+  EXPECT_EQ(p.dashpot, 1);
+}
+
+TEST(Presence, ClosedAFractionOfTheStepAgo) {
+  const double dt = 1e-7, approach = -0.4, fraction = 0.3;
+  const auto p = presence(fraction * 0.4 * dt, approach, dt);
+  EXPECT_NEAR(p.spring, fraction, 1e-12);
+  EXPECT_NEAR(p.dashpot, fraction + 0.5, 1e-12);
+}
+
+TEST(Presence, OpenedAfterAFractionOfTheStep) {
+  const double dt = 1e-7, parting = 0.4, fraction = 0.3;
+  const auto p = presence(-(1 - fraction) * 0.4 * dt, parting, dt);
+  EXPECT_NEAR(p.dashpot, fraction - 0.5, 1e-12);
+}
+
+TEST(Presence, ApartBeforeAndAfter) { EXPECT_EQ(presence(-1e-6, 0.1, 1e-7).dashpot, 0); }
+
+} // namespace
