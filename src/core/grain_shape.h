@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -88,8 +89,11 @@ private:
       const Member &d = members[k];
       if (!std::isfinite(d.x) || !std::isfinite(d.y) || !std::isfinite(d.r))
         throw std::invalid_argument(name(k) + " has a coordinate or radius that is not a finite number");
-      if (!(d.r > 0))
-        throw std::invalid_argument(name(k) + " has radius " + std::to_string(d.r) + ", must be positive");
+      if (!(d.r > 0)) {
+        std::ostringstream what;
+        what << name(k) << " has radius " << d.r << ", must be positive";
+        throw std::invalid_argument(what.str());
+      }
       for (std::size_t l = 0; l < members.size(); l++)
         if (l != k && lies_inside(d, members[l]))
           throw std::invalid_argument(name(k) + " is a duplicate of, or lies inside, " + name(l));

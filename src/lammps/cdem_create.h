@@ -2,8 +2,8 @@
 // cdem/create TYPE row X1 Y1 X2 Y2 N diameter D density RHO
 // cdem/create TYPE fill N region XLO XHI YLO YHI diameter DMIN DMAX power P density RHO seed S
 //
-// Makes discs of mass RHO pi D^2/4, or grains of the shape that fix cdem/shape gives to TYPE, with circumscribed diameter
-// D and the mass of that shape. RHO is an areal density, density x thickness (kg/m^2), lengths are in m.
+// Makes discs of mass RHO pi D^2/4, or grains of the shape that fix cdem/shape gives to TYPE, with circumscribed
+// diameter D and the mass of that shape. RHO is an areal density, density x thickness (kg/m^2), lengths are in m.
 //
 //   row   N discs, their centres evenly spaced from (X1, Y1) to (X2, Y2), both included
 //   fill  N grains without overlap inside a rectangle, as a loose column for packing. Diameters follow n(d) ~ d^P from

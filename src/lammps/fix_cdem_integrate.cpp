@@ -90,6 +90,7 @@ int FixCDEMIntegrate::setmask() {
 void FixCDEMIntegrate::init() {
   if (!dynamic_cast<PairCDEM *>(force->pair))
     error->all(FLERR, "Fix cdem/integrate needs pair_style cdem");
+  refuse_second_integrator();
   inertia.assign(1, 0);
   for (int type = 1; type <= atom->ntypes; type++)
     inertia.push_back(FixCDEMShape::shape(lmp, type).inertia());
@@ -119,6 +120,19 @@ void FixCDEMIntegrate::reset_dt() {
   weight = scene_minimum([dt](const auto &...grain) { return cdem::prediction_weight(grain..., dt); });
 }
 
+// The styles of this package look to it themselves.
+void FixCDEMIntegrate::refuse_second_integrator() const {
+  for (int k = 0; k < modify->nfix; k++) {
+    const Fix *const other = modify->fix[k];
+    if (!other->time_integrate || utils::strmatch(other->style, "^cdem/"))
+      continue;
+    for (int i = 0; i < atom->nlocal; i++)
+      if (is_free(i) && (atom->mask[i] & other->groupbit))
+        error->one(FLERR, "Fix cdem/integrate {}: fix {} of style {} moves grains of its group too", id, other->id,
+                   other->style);
+  }
+}
+
 void FixCDEMIntegrate::apply_step_rule() {
   if (rule == Step::automatic) {
     const double step = std::min(SAFE_FRACTION * limit, max_step);
@@ -134,6 +148,8 @@ void FixCDEMIntegrate::apply_step_rule() {
       modify->fix[i]->reset_dt();
     if (comm->me == 0)
       utils::logmesg(lmp, "Fix cdem/integrate: time step {:.4g} s, stability limit {:.4g} s\n", step, limit);
+  } else if (!(update->dt > 0 && std::isfinite(update->dt))) {
+    error->all(FLERR, "Fix cdem/integrate: the time step {} must be positive", update->dt);
   } else if (rule == Step::check && update->dt > limit) {
     error->all(FLERR,
                "Fix cdem/integrate: the time step {:.4g} is beyond the stability limit {:.4g} of this scene (smallest "

@@ -66,6 +66,7 @@ private:
   enum class Step { check, any, automatic };
 
   template <class Value> double scene_minimum(Value) const;
+  void refuse_second_integrator() const;
   void apply_step_rule();
   void take_acceleration(int i);
 

@@ -42,18 +42,18 @@ FixCDEMLid::FixCDEMLid(LAMMPS *lmp, int narg, char **arg) : WallBody(lmp, narg, 
       if (iarg < narg && strcmp(arg[iarg], "auto") == 0) {
         given_cap = 0;
         iarg++;
-      } else if (!((given_cap = number(narg, arg, iarg, "vmax")) > 0))
+      } else if (!((given_cap = number(narg, arg, iarg, "vmax")) > 0 && std::isfinite(given_cap)))
         error->all(FLERR, "Fix cdem/lid {}: vmax {}: must be positive (m/s), or auto", id, given_cap);
     } else
       error->all(FLERR, "Fix cdem/lid {}: unknown keyword {}; allowed: stress, width, thickness, vmax", id, keyword);
   }
   if (!has_stress)
     error->all(FLERR, "Fix cdem/lid {}: stress (Pa) is missing", id);
-  if (!(stress >= 0))
+  if (!(stress >= 0 && std::isfinite(stress)))
     error->all(FLERR, "Fix cdem/lid {}: stress {}: must be 0 or more (Pa, compression)", id, stress);
-  if (!(width > 0))
+  if (!(width > 0 && std::isfinite(width)))
     error->all(FLERR, "Fix cdem/lid {}: width {}: must be given and positive (m)", id, width);
-  if (!(thickness > 0))
+  if (!(thickness > 0 && std::isfinite(thickness)))
     error->all(FLERR, "Fix cdem/lid {}: thickness {}: must be given and positive (m)", id, thickness);
   size_vector = NOUTPUTS;
 }
@@ -108,7 +108,7 @@ void FixCDEMLid::update_stress() {
   modify->clearstep_compute();
   stress = input->variable->compute_equal(variable_index);
   modify->addstep_compute(update->ntimestep + 1);
-  if (!(stress >= 0))
+  if (!(stress >= 0 && std::isfinite(stress)))
     error->all(FLERR, "Fix cdem/lid {}: variable {} is {} at step {}: must be 0 or more (Pa, compression)", id,
                stress_variable, stress, update->ntimestep);
 }

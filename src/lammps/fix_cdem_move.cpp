@@ -41,9 +41,9 @@ FixCDEMMove::FixCDEMMove(LAMMPS *lmp, int narg, char **arg) : WallBody(lmp, narg
     error->all(FLERR, "Fix cdem/move {}: speed (m/s) is missing", id);
   if (!std::isfinite(speed))
     error->all(FLERR, "Fix cdem/move {}: speed {}: must be a number (m/s)", id, speed);
-  if (!(ramp >= 0))
+  if (!(ramp >= 0 && std::isfinite(ramp)))
     error->all(FLERR, "Fix cdem/move {}: ramp {}: must be 0 or more (s)", id, ramp);
-  if (has_stop && !(stop > 0))
+  if (has_stop && !(stop > 0 && std::isfinite(stop)))
     error->all(FLERR, "Fix cdem/move {}: stop {}: must be positive (m)", id, stop);
   size_vector = NOUTPUTS;
 }

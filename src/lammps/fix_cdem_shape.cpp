@@ -9,8 +9,11 @@
 #include "modify.h"
 #include "utils.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <random>
 #include <sstream>
@@ -37,20 +40,18 @@ FixCDEMShape::FixCDEMShape(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
   int iarg = 3;
   while (iarg < narg) {
     const std::string key = arg[iarg++];
-    if (iarg == narg)
-      error->all(FLERR, "Fix cdem/shape: {} needs a value", key);
+    if (key != "type" && key != "density" && key != "orient")
+      error->all(FLERR, "Fix cdem/shape: unknown keyword {}; allowed: type, density, orient", key);
     if (key == "type") {
       iarg = read_template(narg, arg, iarg);
     } else if (key == "density") {
-      density = utils::numeric(FLERR, arg[iarg++], false, lmp);
-      if (!(density > 0))
+      density = number(narg, arg, iarg++, key);
+      if (!(density > 0 && std::isfinite(density)))
         error->all(FLERR, "Fix cdem/shape: density {} must be positive", arg[iarg - 1]);
-    } else if (key == "orient") {
-      seed = utils::inumeric(FLERR, arg[iarg++], false, lmp);
+    } else {
+      seed = integer(narg, arg, iarg++, key);
       if (seed <= 0)
         error->all(FLERR, "Fix cdem/shape: orient {}: the seed must be positive", seed);
-    } else {
-      error->all(FLERR, "Fix cdem/shape: unknown keyword {}; allowed: type, density, orient", key);
     }
   }
   for (int type = 1; type <= atom->ntypes; type++)
@@ -61,9 +62,23 @@ FixCDEMShape::FixCDEMShape(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
     set_mass();
 }
 
+double FixCDEMShape::number(int narg, char **arg, int iarg, const std::string &what) const {
+  const std::string word = iarg < narg ? arg[iarg] : "nothing";
+  if (!utils::is_double(word))
+    error->all(FLERR, "Fix cdem/shape: {} is {}, must be a number", what, word);
+  return std::stod(word);
+}
+
+int FixCDEMShape::integer(int narg, char **arg, int iarg, const std::string &what) const {
+  const std::string word = iarg < narg ? arg[iarg] : "nothing";
+  if (!utils::is_integer(word) || word.size() > 9)
+    error->all(FLERR, "Fix cdem/shape: {} is {}, must be an integer", what, word);
+  return std::stoi(word);
+}
+
 // Reads "T TEMPLATE" from arg[iarg] on and returns where the next keyword is.
 int FixCDEMShape::read_template(int narg, char **arg, int iarg) {
-  const int type = utils::inumeric(FLERR, arg[iarg++], false, lmp);
+  const int type = integer(narg, arg, iarg++, "type");
   if (type < 1 || type > atom->ntypes)
     error->all(FLERR, "Fix cdem/shape: type {} must be between 1 and {}", type, atom->ntypes);
   if (shapes[type])
@@ -94,18 +109,22 @@ int FixCDEMShape::read_template(int narg, char **arg, int iarg) {
 }
 
 int FixCDEMShape::read_discs(int narg, char **arg, int iarg, std::vector<Member> &discs) const {
-  const int n = iarg < narg ? utils::inumeric(FLERR, arg[iarg++], false, lmp) : 0;
-  if (n < 1 || iarg + 3 * n > narg)
+  const int n = integer(narg, arg, iarg++, "discs");
+  if (n < 1 || n > (narg - iarg) / 3)
     error->all(FLERR, "Fix cdem/shape: discs {}: must be a positive number of discs, each with x y r; {} values follow",
                n, narg - iarg);
-  for (int k = 0; k < n; k++, iarg += 3)
-    discs.push_back({utils::numeric(FLERR, arg[iarg], false, lmp), utils::numeric(FLERR, arg[iarg + 1], false, lmp),
-                     utils::numeric(FLERR, arg[iarg + 2], false, lmp)});
+  for (int k = 1; k <= n; k++, iarg += 3) {
+    const std::string disc = " of disc " + std::to_string(k);
+    discs.push_back({number(narg, arg, iarg, "x" + disc), number(narg, arg, iarg + 1, "y" + disc),
+                     number(narg, arg, iarg + 2, "r" + disc)});
+  }
   return iarg;
 }
 
 std::vector<Member> FixCDEMShape::read_file(const std::string &name) const {
   std::ifstream file(name);
+  if (std::filesystem::is_directory(name))
+    error->all(FLERR, "Fix cdem/shape: the template file {} is a folder", name);
   if (!file)
     error->all(FLERR, "Fix cdem/shape: can't read the template file {}: {}", name, utils::getsyserror());
   std::vector<Member> discs;
@@ -116,6 +135,8 @@ std::vector<Member> FixCDEMShape::read_file(const std::string &name) const {
     std::string rest;
     if (!(words >> std::ws) || words.eof())
       continue;
+    if (std::any_of(line.begin(), line.end(), [](unsigned char c) { return c < ' ' && !std::isspace(c); }))
+      error->all(FLERR, "Fix cdem/shape: {} line {} is not text", name, number);
     if (!(words >> d.x >> d.y >> d.r) || words >> rest)
       error->all(FLERR, "Fix cdem/shape: {} line {} is not 'x y r': {}", name, number, line.substr(0, 60));
     discs.push_back(d);
@@ -126,6 +147,8 @@ std::vector<Member> FixCDEMShape::read_file(const std::string &name) const {
 int FixCDEMShape::setmask() { return 0; }
 
 void FixCDEMShape::init() {
+  if (density > 0)
+    set_mass(); // also of grains that were made after this fix
   if (seed > 0 && !oriented)
     orient();
   oriented = 1;

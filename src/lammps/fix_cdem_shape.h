@@ -8,7 +8,9 @@
 //             triple               three equal discs, each touching the other two
 //             discs N x y r ...    N discs in any unit, about any origin; they may overlap and must be connected
 //             file NAME            the same from a file: a line "x y r" a disc, # starts a comment
-//   density   mass per area (kg/m^2): sets the mass of the group's grains, from the area of the union of the discs
+//   density   mass per area (kg/m^2): sets the mass of the group's grains at the start of each run, from the area of
+//   the
+//             union of the discs
 //   orient    turns the group's grains to random angles, once; the angle depends on SEED and the atom id alone
 //
 // Every atom type needs a template. Mass centre, area and inertia are those of the union of the discs, see
@@ -40,6 +42,8 @@ public:
   void restart(char *) override;
 
 private:
+  double number(int narg, char **arg, int iarg, const std::string &what) const;
+  int integer(int narg, char **arg, int iarg, const std::string &what) const;
   int read_template(int narg, char **arg, int iarg);
   int read_discs(int narg, char **arg, int iarg, std::vector<cdem::GrainShape::Member> &) const;
   std::vector<cdem::GrainShape::Member> read_file(const std::string &name) const;
