@@ -265,7 +265,7 @@ def test_missing_file(tmp_path: Path, command: str, message: str, ranks: int) ->
     [
         ("write_restart /dev/full", "cannot write /dev/full: No space left on device"),
         ("dump d all custom 1 /dev/full id x y", "cannot write /dev/full: No space left on device"),
-        ("fix out all ave/time 1 1 1 f_lid file /dev/full", "cannot write /dev/full: No space left on device"),
+        ("fix out all ave/time 1 1 1 f_lid[2] file /dev/full", "cannot write /dev/full: No space left on device"),
         ("restart 10 nowhere/a nowhere/b", "nowhere/a"),
         ("dump d all custom 1 nowhere/d.dump id x y", "Cannot open dump file"),
         ("fix out all ave/time 1 1 1 f_lid file nowhere/f.dat", "nowhere/f.dat"),
