@@ -797,6 +797,28 @@ def test_density_and_sizes(tmp_path: Path, ranks: int) -> None:
     assert end["radius"].tolist() == [d.radius for d in scene]
 
 
+def test_density_of_grains_made_later(tmp_path: Path) -> None:
+    deck = """
+    units si
+    dimension 2
+    boundary f f p
+    atom_style sphere
+    newton off
+    comm_modify vel yes
+    region box block 0 0.1 0 0.1 -0.005 0.005
+    create_box 1 box
+    fix shape all cdem/shape type 1 triple density 30
+    create_atoms 1 single 0.05 0.05 0
+    set group all diameter 0.006
+    pair_style cdem law direct
+    pair_coeff * * 1e8 2.5e7 0.215 0.215 27
+    fix move all cdem/integrate dt auto
+    run 0
+    """
+    end = run(deck + END, tmp_path).end
+    assert end["mass"] == pytest.approx([30 * 3 * math.pi * (0.003 / (1 + 2 / SQRT3)) ** 2], rel=1e-14)
+
+
 def test_mass_of_created_grains(tmp_path: Path, ranks: int) -> None:
     """cdem/create takes diameters as the circumscribed ones, and the area from the template."""
     deck = """
@@ -888,13 +910,17 @@ BOTH = "type 1 single type 2 single"
 REFUSED = {
     "type 1 discs 0 type 2 single": "discs 0: must be a positive number",
     "type 1 discs -3 0 0 1 type 2 single": "discs -3: must be a positive number",
+    "type 1 discs 1.5 0 0 1 type 2 single": "discs is 1.5, must be an integer",
+    "type 2 single type 1 discs": "discs is nothing",
+    "type 2 single type 1 discs 1000000000 0 0 1": "discs is 1000000000",
     "type 2 single type 1 discs 2 0 0 1 2 0": "5 values follow",
-    "type 2 single type 1 discs 1 0 0 1 5": "5",
-    "type 1 discs 2 0 0 1 2 0 type 2 single": "'type'",
-    "type 1 discs 1 0 a 1 type 2 single": "'a'",
+    "type 2 single type 1 discs 1 0 0 1 5": "unknown keyword 5",
+    "type 1 discs 2 0 0 1 2 0 type 2 single": "r of disc 2 is type, must be a number",
+    "type 1 discs 1 0 a 1 type 2 single": "y of disc 1 is a, must be a number",
     "type 1 discs 1 0 0 0 type 2 single": "type 1, discs: disc 1 has radius 0",
     "type 1 discs 2 0 0 1 1 0 -0.5 type 2 single": "disc 2 has radius -0.5",
-    "type 1 discs 1 0 0 nan type 2 single": "nan",
+    "type 1 discs 1 0 0 -1e-9 type 2 single": "disc 1 has radius -1e-09",
+    "type 1 discs 1 0 0 nan type 2 single": "r of disc 1 is nan",
     "type 1 discs 3 0 0 1 2 0 1 0 0 1 type 2 single": "disc 1 is a duplicate of, or lies inside, disc 3",
     "type 1 discs 2 0 0 1 0.1 0 0.2 type 2 single": "disc 2 is a duplicate of, or lies inside, disc 1",
     "type 1 discs 2 0 0 1 3 0 1 type 2 single": "disc 2 is disconnected from disc 1",
@@ -905,11 +931,13 @@ REFUSED = {
     "type 1 triple " + BOTH: "type 1 has two templates",
     "type 1 quadruple type 2 single": "type 1: unknown template quadruple; allowed: single, triple, discs, file",
     "type 1": "type 1: unknown template",
+    "type x single": "type is x, must be an integer",
     BOTH + " density 0": "density 0 must be positive",
     BOTH + " density -26.5": "density -26.5 must be positive",
-    BOTH + " density": "density needs a value",
+    BOTH + " density": "density is nothing, must be a number",
     BOTH + " orient 0": "orient 0: the seed must be positive",
     BOTH + " orient -4": "orient -4: the seed must be positive",
+    BOTH + " orient 1.5": "orient is 1.5, must be an integer",
     BOTH + " colour red": "unknown keyword colour; allowed: type, density, orient",
     BOTH + f"\nfix more all cdem/shape {BOTH}": "Fix cdem/shape more: there is one already, shape",
     "type 1 file": "file needs a name",
@@ -922,7 +950,8 @@ REFUSED = {
     "type 1 file commas type 2 single": "commas line 1 is not 'x y r': 0,0,1",
     "type 1 file not-a-number type 2 single": "not-a-number line 2 is not 'x y r': 2 0 nan",
     "type 1 file negative type 2 single": "file negative: disc 2 has radius -1",
-    "type 1 file binary type 2 single": "binary",
+    "type 1 file binary type 2 single": "binary line 1 is not text",
+    "type 1 file . type 2 single": "template file . is a folder",
 }
 
 
