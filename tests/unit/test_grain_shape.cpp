@@ -290,8 +290,8 @@ std::string refusal(const Discs &discs) {
 
 TEST(GrainShape, BadTemplatesAreNamed) {
   EXPECT_EQ(refusal({}), "it has no discs");
-  EXPECT_EQ(refusal({{0, 0, 1}, {1, 0, 0}}), "disc 2 has radius 0.000000, must be positive");
-  EXPECT_EQ(refusal({{0, 0, -0.5}}), "disc 1 has radius -0.500000, must be positive");
+  EXPECT_EQ(refusal({{0, 0, 1}, {1, 0, 0}}), "disc 2 has radius 0, must be positive");
+  EXPECT_EQ(refusal({{0, 0, -0.5}}), "disc 1 has radius -0.5, must be positive");
   EXPECT_EQ(refusal({{0, 0, 1}, {NAN, 0, 1}}), "disc 2 has a coordinate or radius that is not a finite number");
   EXPECT_EQ(refusal({{0, 0, INFINITY}}), "disc 1 has a coordinate or radius that is not a finite number");
   EXPECT_EQ(refusal({{0, 0, 1}, {2, 0, 1}, {0, 0, 1}}), "disc 1 is a duplicate of, or lies inside, disc 3");
