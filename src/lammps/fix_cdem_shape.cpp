@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -66,13 +67,13 @@ double FixCDEMShape::number(int narg, char **arg, int iarg, const std::string &w
   const std::string word = iarg < narg ? arg[iarg] : "nothing";
   if (!utils::is_double(word))
     error->all(FLERR, "Fix cdem/shape: {} is {}, must be a number", what, word);
-  return std::stod(word);
+  return std::strtod(word.c_str(), nullptr); // out of range gives inf, which the callers refuse
 }
 
 int FixCDEMShape::integer(int narg, char **arg, int iarg, const std::string &what) const {
   const std::string word = iarg < narg ? arg[iarg] : "nothing";
   if (!utils::is_integer(word) || word.size() > 9)
-    error->all(FLERR, "Fix cdem/shape: {} is {}, must be an integer", what, word);
+    error->all(FLERR, "Fix cdem/shape: {} is {}, must be an integer of at most 9 digits", what, word);
   return std::stoi(word);
 }
 

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from engine import Disc, run
+from scenes import mini_box
 
 R = 10.0  # m, radius of the floor
 BOX = (-11.0, 11.0, -11.0, 11.0)
@@ -153,3 +154,23 @@ def test_oblique_impact_in_the_sliding_regime(tmp_path: Path, law: str, ranks: i
     slip, rebound = vx[:, 0] - vx[:, 1], vy[:, 0] - vy[:, 1]
     expected = (vt - MU * normal / effective) / (e * vn)
     assert slip / rebound / expected == pytest.approx(1, rel=1e-3)
+
+
+def test_the_limit_is_exact_in_a_packing(tmp_path: Path, ranks: int) -> None:
+    """Every contact that slides has |ft| = tan(phi) kn overlap, where the dashpots do not count; none that sticks has
+    a spring beyond it. To round-off of the overlaps, 4e-18 m of some 1e-7 m."""
+    deck = """
+    include ${decks}/mini_box.in
+    compute c all cdem/contacts ft overlap sliding
+    dump c all local 20 contacts.dump c_c[1] c_c[2] c_c[3]
+    dump_modify c format float %.17g
+    run 200
+    """
+    discs, box = mini_box()
+    # Without tangential dashpots, ft is the spring's force. The increments of the other law don't sum to the overlap.
+    frames = run(deck, tmp_path, discs=discs, box=box, law="direct", ranks=ranks, hs=0).dump("contacts.dump")
+    ft, overlap, sliding = (np.concatenate([f[f"c_c[{k}]"] for f in frames]) for k in (1, 2, 3))
+    limit, sliding = MU * 1e8 * overlap, sliding == 1
+    assert np.count_nonzero(sliding) > 20 and np.count_nonzero(~sliding) > 20
+    assert np.abs(ft[sliding]) == pytest.approx(limit[sliding], rel=1e-9)
+    assert np.all(np.abs(ft) <= limit * (1 + 1e-9))
