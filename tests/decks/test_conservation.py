@@ -35,9 +35,9 @@ def momenta(state: Frame) -> np.ndarray:
 def test_momentum_and_angular_momentum_to_round_off(tmp_path: Path, law: str, ranks: int) -> None:
     """49 discs of many sizes collide obliquely, with friction and damping. Each contact's forces are opposite and act
     at one point, so momentum and angular momentum (with the spins) are kept to round-off. Velocities cancel exactly;
-    a position that moves uniformly is rounded to the same side in each step, 1e-16 x 3000 steps at most."""
+    a position that moves uniformly is rounded to the same side in each step, 1e-16 x 1500 steps at most."""
     out = run(
-        COLLIDE, tmp_path, discs=cloud(7, speed=2.0), box=(-0.05, 0.05, -0.05, 0.05), ranks=ranks, law=law, dt=3e-7, steps=3000,
+        COLLIDE, tmp_path, discs=cloud(7, speed=4.0), box=(-0.05, 0.05, -0.05, 0.05), ranks=ranks, law=law, dt=3e-7, steps=1500,
     )  # fmt: skip
     before, after = out.dump("start.dump")[0], out.end
     assert np.count_nonzero(before["omegaz"] != after["omegaz"]) > 40  # many did collide
@@ -45,20 +45,20 @@ def test_momentum_and_angular_momentum_to_round_off(tmp_path: Path, law: str, ra
     scale = np.abs(momenta(before)).sum(axis=1)
     change = np.abs(momenta(after).sum(axis=1) - momenta(before).sum(axis=1)) / scale
     assert max(change[:2]) < 1e-15
-    assert change[2] < 3e-13
+    assert change[2] < 1.5e-13
 
 
 def test_energy_of_frictionless_collisions(tmp_path: Path, law: str, ranks: int) -> None:
     """The same collisions without friction and damping. A collision changes the energy by an amount that depends on the
-    phase of the step at first touch: up to 2 x 2.4e-4 at 20 steps a contact (see test_restitution), of either sign."""
+    phase of the step at first touch, at the 13 steps a contact of the smallest discs by up to 2e-3 of either sign."""
     out = run(
-        COLLIDE, tmp_path, discs=cloud(7, speed=2.0), box=(-0.05, 0.05, -0.05, 0.05), ranks=ranks, law=law,
-        phi=0, hn=0, hs=0, dt=1.5e-7, steps=6000,
+        COLLIDE, tmp_path, discs=cloud(7, speed=4.0), box=(-0.05, 0.05, -0.05, 0.05), ranks=ranks, law=law,
+        phi=0, hn=0, hs=0, dt=1.5e-7, steps=3000,
     )  # fmt: skip
     before, after = out.dump("start.dump")[0], out.end
     assert np.count_nonzero(before["vx"] != after["vx"]) > 40
     assert np.array_equal(before["omegaz"], after["omegaz"])
-    assert kinetic_energy(after) == pytest.approx(kinetic_energy(before), rel=1e-3)
+    assert kinetic_energy(after) == pytest.approx(kinetic_energy(before), rel=3e-3)
 
 
 STICK = """

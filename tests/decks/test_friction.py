@@ -61,7 +61,7 @@ include ${decks}/start.in
 fix weight grains gravity ${g} vector 0 -1 0
 fix move grains cdem/integrate
 timestep ${dt}
-dump d grains custom 1 slide.dump id x y vx omegaz fx
+dump d grains custom 2 slide.dump id x y vx omegaz fx
 dump_modify d format float %.17g
 run ${steps}
 """
@@ -78,17 +78,17 @@ def test_sliding_ends_in_rolling(tmp_path: Path, law: str, ranks: int, start: st
     overlap = Disc(0, 0).mass * g / kn
     y, r = Disc(0, 0).radius - overlap, Disc(0, 0).radius
     disc = Disc(0, y, vx=v0) if start == "thrown" else Disc(0, y, omega=-v0 / r)  # forward is a negative spin
-    dt, steps = 2e-6, 3000
+    dt, steps = 2e-6, 2600
     out = run(
         SLIDE, tmp_path, discs=[disc, FLOOR], box=BOX, ranks=ranks, law=law, kn=kn, ks=ks, hs=hs, g=g, dt=dt, steps=steps,
     )  # fmt: skip
-    t = dt * np.arange(steps + 1)
+    t = dt * np.arange(0, steps + 1, 2)
     vx, omega, fx = (out.series("slide.dump", name)[:, 0] for name in ("vx", "omegaz", "fx"))
 
-    # The spring takes mu g m/(ks v0) = 2e-7 s to reach the limit; its dashpot, in this time, takes 5e-4 of v0.
+    # The spring takes mu g m/(ks v0) = 2e-7 s to reach the limit; its dashpot, until then, takes 1e-3 of v0.
     end = v0 / (3 * MU * g)
     limit = MU * disc.mass * g
-    assert t[np.abs(fx) > 0.999 * limit].max() == pytest.approx(end, abs=2 * dt)
+    assert t[np.abs(fx) > 0.999 * limit].max() == pytest.approx(end, rel=0.005, abs=2 * dt)
     # While it slides, the force is the limit. Coordinates of 10 m have a last bit of 2e-15 m: 5e-8 of the overlap; and
     # the floor is bent: v0^2/(R g) = 1e-6 of the weight.
     slides = (t > 5 * dt) & (t < 0.99 * end)
