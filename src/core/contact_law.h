@@ -23,17 +23,18 @@ template <class T> struct alignas(8 * sizeof(T)) Disc {
   T omega_half, omega;
 };
 
-// Disc a relative to disc b: the difference of all, and the sums of the spins.
+// Disc a relative to disc b, and the spins of both.
 template <class T> struct Relative {
-  Disc<T> difference;
-  T omega_half_sum, omega_sum;
+  T x, y;
+  T vx_half, vy_half;
+  T vx, vy;
+  T omega_half_a, omega_a, omega_half_b, omega_b;
 };
 
 inline Relative<double> relative(const Disc<double> &a, const Disc<double> &b) {
-  return {{a.x - b.x, a.y - b.y, a.vx_half - b.vx_half, a.vy_half - b.vy_half, a.vx - b.vx, a.vy - b.vy,
-           a.omega_half - b.omega_half, a.omega - b.omega},
-          a.omega_half + b.omega_half,
-          a.omega + b.omega};
+  return {a.x - b.x,    a.y - b.y,   a.vx_half - b.vx_half, a.vy_half - b.vy_half,
+          a.vx - b.vx,  a.vy - b.vy, a.omega_half,          a.omega,
+          b.omega_half, b.omega};
 }
 
 // Constants of one pair of materials.
@@ -47,10 +48,11 @@ inline Material material(double kn, double ks, double hn, double hs, double mu) 
   return {kn, ks, hn * std::sqrt(kn), hs * std::sqrt(ks), mu};
 }
 
-// Constants of one pair of discs. The lever arm to the contact point is r_a - overlap/2 = (distance + r_a - r_b)/2.
+// Constants of one pair of discs. The lever arms to the contact point are r - overlap/2: of disc a, half the distance
+// plus, and of disc b, half the distance minus half the difference of the radii.
 template <class T> struct Pair {
-  T radius_sum, radius_difference;
-  T root_mass; // 2 sqrt(m), m = m_a m_b/(m_a + m_b), or the grain's mass against a wall
+  T radius_sum, half_difference; // r_a + r_b, (r_a - r_b)/2
+  T root_mass;                   // 2 sqrt(m), m = m_a m_b/(m_a + m_b), or the grain's mass against a wall
 };
 
 // What a contact remembers: the tangential spring force, and for the incremental law the normal one (N).
@@ -59,24 +61,21 @@ template <class T> struct History { T es, en; };
 // Force on the first disc, and the torques on both, about the disc centres.
 template <class T> struct alignas(4 * sizeof(T)) Forces { T fx, fy, torque_a, torque_b; };
 
-// Relative motion of the contact point of disc a against b, along n (from b to a) and t (n turned by +90 degrees).
-template <class T> struct Approach { T n, t; };
+// The same, with b as the first disc.
+template <class T> inline Forces<T> opposite(const Forces<T> &f) { return {-f.fx, -f.fy, f.torque_b, f.torque_a}; }
 
-// The discs' rims move with omega_a l_a + omega_b l_b against each other, l = (distance +- difference of radii)/2.
-template <class T>
-inline Approach<T> approach(T ux, T uy, T omega_sum, T omega_difference, T nx, T ny, T distance, T difference) {
-  const T spin = T(0.5) * (omega_sum * distance + omega_difference * difference);
-  return {ux * nx + uy * ny, uy * nx - ux * ny - spin};
-}
+// Relative motion of the contact point of disc a against b, along n (from b to a) and t (n turned by +90 degrees):
+// that of the centres, less that of the rims by the spin = omega_a l_a + omega_b l_b, l the lever arms.
+template <class T> struct Approach { T n, t; };
 
 // The slip of a step over dt, for the spring. It was made about the distance and the normal of the middle of the step,
 // while `half` is taken about those of its end. The difference is of first order in dt; this removes it, and leaves
-// exactly 0 where the two discs turn as one body.
+// exactly 0 where the two discs turn as one body. `across` is the part of half.t that is not spin.
 template <class T>
-inline T slip_velocity(const Disc<T> &u, T omega_sum, const Approach<T> &half, T nx, T ny, T inverse, T half_dt) {
-  const T across = u.vy_half * nx - u.vx_half * ny;
-  const T turning = across * inverse;
-  return half.t + half_dt * (half.n - half_dt * across * turning) * (turning + T(0.5) * omega_sum);
+inline T slip_velocity(const Approach<T> &half, T across, T omega_sum, T inverse_distance, double dt) {
+  const T turning = across * inverse_distance;
+  const T middle = fused(T(-0.5 * dt) * across, turning, half.n); // approach in the middle of the step
+  return fused(T(0.25 * dt) * middle, fused(T(2), turning, omega_sum), half.t);
 }
 
 // The part of the step behind that a pair was in contact, as it enters the forces now.
@@ -91,7 +90,7 @@ template <class T> struct Presence {
 };
 
 template <class T> inline Presence<T> presence(T overlap, T un_half, double dt) {
-  const T before = overlap + un_half * T(dt); // overlap one step ago
+  const T before = fused(un_half, T(dt), overlap); // overlap one step ago
   const auto touch = overlap > T(0), touched = before > T(0);
   const auto changed = touch != touched;
   const T plain = select(touch, T(1), T(0));
@@ -104,42 +103,42 @@ template <class T> inline Presence<T> presence(T overlap, T un_half, double dt) 
 // The force of a pair, and its history brought forward by the displacement of a step of length dt. With dt = 0 it is
 // the force of the present state, and the history stays as it is.
 template <Law law, bool limit_damping, class T>
-[[gnu::always_inline]] inline Forces<T> contact_force(const Relative<T> &of_a, const Pair<T> &pair, const Material &m,
+[[gnu::always_inline]] inline Forces<T> contact_force(const Relative<T> &u, const Pair<T> &pair, const Material &m,
                                                       double dt, History<T> &history) {
-  const Disc<T> &u = of_a.difference;
-  const T distance = square_root(u.x * u.x + u.y * u.y), inverse = T(1) / distance;
+  const T distance = square_root(fused(u.x, u.x, u.y * u.y)), inverse = T(1) / distance;
   const T overlap = pair.radius_sum - distance;
   const auto touch = overlap > T(0);
   const T nx = u.x * inverse, ny = u.y * inverse;
+  const T lever_a = fused(T(0.5), distance, pair.half_difference), lever_b = distance - lever_a;
 
-  const Approach<T> half =
-      approach<T>(u.vx_half, u.vy_half, of_a.omega_half_sum, u.omega_half, nx, ny, distance, pair.radius_difference);
-  const Approach<T> now = approach<T>(u.vx, u.vy, of_a.omega_sum, u.omega, nx, ny, distance, pair.radius_difference);
+  const T across_half = fused_minus(u.vy_half, nx, u.vx_half * ny), across = fused_minus(u.vy, nx, u.vx * ny);
+  const Approach<T> half{fused(u.vx_half, nx, u.vy_half * ny),
+                         across_half - fused(u.omega_half_a, lever_a, u.omega_half_b * lever_b)};
+  const Approach<T> now{fused(u.vx, nx, u.vy * ny), across - fused(u.omega_a, lever_a, u.omega_b * lever_b)};
   const Presence<T> share = presence<T>(overlap, half.n, dt);
 
   T en = select(touch, T(m.kn) * overlap, T(0));
   if constexpr (law == Law::incremental) {
     // A contact that closed in this step, or is met without a history, starts with the overlap it has.
     const auto known = (share.spring == T(1)) && (history.en != T(0));
-    en = select(touch && known, history.en - T(m.kn * dt) * half.n, en);
+    en = select(touch && known, fused(T(-m.kn * dt), half.n, history.en), en);
     history.en = en;
   }
 
   // Apart, the limit is 0, which clears the history.
   const T limit = law == Law::direct ? T(m.mu) * en : T(m.mu) * select(en > T(0), en, T(0));
-  const T slip = slip_velocity<T>(u, of_a.omega_half_sum, half, nx, ny, inverse, T(0.5 * dt));
-  const T trial = history.es - T(m.ks * dt) * slip * share.spring;
+  const T slip = slip_velocity<T>(half, across_half, u.omega_half_a + u.omega_half_b, inverse, dt);
+  const T trial = fused(T(-m.ks * dt) * slip, share.spring, history.es);
   const auto slides = magnitude(trial) >= limit;
   const T es = select(slides, with_sign_of(limit, trial), trial);
   history.es = es;
 
   const T dashpot = pair.root_mass * share.dashpot;
-  T fn = en - T(m.dn) * dashpot * now.n;
+  T fn = fused(T(-m.dn) * dashpot, now.n, en);
   if constexpr (limit_damping)
     fn = select(touch && fn > T(0), fn, T(0));
-  const T ft = select(slides, es, es - T(m.ds) * dashpot * now.t);
-  return {fn * nx - ft * ny, fn * ny + ft * nx, T(-0.5) * ft * (distance + pair.radius_difference),
-          T(-0.5) * ft * (distance - pair.radius_difference)};
+  const T ft = select(slides, es, fused(T(-m.ds) * dashpot, now.t, es)), back = -ft;
+  return {fused(fn, nx, back * ny), fused(fn, ny, ft * nx), back * lever_a, back * lever_b};
 }
 
 } // namespace cdem

@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The forces of a range of pairs of one material. The loop is compiled once for each instruction set of the machine's
-// family and chosen at run time; all give the same bits, since every operation in it is rounded as IEEE 754 says and
-// none is fused.
+// The loops of a time step, compiled once for each instruction set of the machine's family and chosen at run time. All
+// give the same bits, except those for x86-64 without fused multiply-add (see lanes.h).
 #pragma once
 
+#include "clump_motion.h"
 #include "contact_law.h"
+#include "disc_motion.h"
+#include "force_slots.h"
 
 namespace cdem {
 
-// Columns of a list of pairs, one entry a pair. All are aligned to 64 bytes, and so are the ranges of one material:
-// entries up to the next multiple of LANES may be read and written.
-struct PairColumns {
-  static constexpr int LANES = 8;
-
-  const int *a, *b;
-  const double *radius_sum, *radius_difference, *root_mass;
-  double *es, *en;
-  Forces<double> *force;
+struct Kernels {
+  // The forces of pairs begin ... end-1, all of one material, begin a multiple of DiscPairs::LANES.
+  void (*forces)(const Disc<double> *discs, const PairColumns &, const Material &, int begin, int end, double dt);
+  // Sums the forces of a block's discs.
+  void (*sum)(const SlotBlock &, Forces<double> *sums);
+  // Places the discs of grains begin ... end-1; half_step as in clump_motion.h.
+  void (*expand)(const ClumpColumns &, int begin, int end, double half_step);
+  // Moves such grains by a step, once the forces on their discs are summed: without and with gravity and drag.
+  void (*advance_clumps[2])(const ClumpColumns &, int begin, int end, const StepRule &, Fastest &);
+  // Sums the forces of a block's discs, and moves these by a step: without and with gravity and drag.
+  void (*advance[2])(const SlotBlock &, Disc<double> *, Body *, const StepRule &, Fastest &);
 };
 
-// The range is begin ... end-1, begin a multiple of LANES.
-using ForceKernel = void (*)(const Disc<double> *discs, const PairColumns &, const Material &, int begin, int end,
-                             double dt);
-
-// The fastest one that this machine can run.
-ForceKernel force_kernel(Law, bool limit_damping);
+// The fastest ones that this machine can run.
+Kernels kernels(Law, bool limit_damping);
 
 } // namespace cdem

@@ -4,19 +4,48 @@
 #pragma once
 
 #include <cmath>
+#include <cstring>
 
 #if __has_include(<experimental/simd>)
 #include <experimental/simd>
 #define CDEM_HAS_SIMD
 #endif
+#if defined(__x86_64__)
+#include <immintrin.h>
+#elif defined(__aarch64__)
+#include <arm_neon.h>
+#endif
 
 namespace cdem {
+
+// Two, four, eight doubles as the compiler knows them. What works on them is compiled for several instruction sets, and
+// must not be shared between these: it is inlined always.
+template <int W> struct Raw { typedef double type __attribute__((vector_size(W * sizeof(double)))); };
+using Two = Raw<2>::type;
+using Four = Raw<4>::type;
+
+template <class R> [[gnu::always_inline]] inline R load_raw(const double *from) {
+  R r;
+  std::memcpy(&r, from, sizeof(r));
+  return r;
+}
+template <class R> [[gnu::always_inline]] inline void store_raw(double *to, R r) { std::memcpy(to, &r, sizeof(r)); }
 
 inline double select(bool condition, double yes, double no) { return condition ? yes : no; }
 inline double square_root(double x) { return std::sqrt(x); }
 inline double magnitude(double x) { return std::fabs(x); }
 inline double with_sign_of(double size, double sign) { return std::copysign(size, sign); }
 inline bool any(bool condition) { return condition; }
+
+// a b + c, rounded once where the machine has an instruction for it. x86-64 has none in its baseline: there the last
+// bits are those of two roundings.
+#if defined(__FMA__) || defined(__ARM_FEATURE_FMA)
+inline double fused(double a, double b, double c) { return __builtin_fma(a, b, c); }
+inline double fused_minus(double a, double b, double c) { return __builtin_fma(a, b, -c); }
+#else
+inline double fused(double a, double b, double c) { return a * b + c; }
+inline double fused_minus(double a, double b, double c) { return a * b - c; }
+#endif
 
 #ifdef CDEM_HAS_SIMD
 namespace stdx = std::experimental;
@@ -32,6 +61,34 @@ template <class Abi> inline Lanes<Abi> square_root(Lanes<Abi> x) { return stdx::
 template <class Abi> inline Lanes<Abi> magnitude(Lanes<Abi> x) { return stdx::abs(x); }
 template <class Abi> inline Lanes<Abi> with_sign_of(Lanes<Abi> size, Lanes<Abi> sign) {
   return stdx::copysign(size, sign);
+}
+template <class Abi> inline Lanes<Abi> fused(Lanes<Abi> a, Lanes<Abi> b, Lanes<Abi> c) {
+  [[maybe_unused]] constexpr int W = Lanes<Abi>::size(); // the library's own fma falls apart into scalars in GCC 12
+#if defined(__AVX512F__)
+  if constexpr (W == 8)
+    return Lanes<Abi>(_mm512_fmadd_pd(static_cast<__m512d>(a), static_cast<__m512d>(b), static_cast<__m512d>(c)));
+#endif
+#if defined(__FMA__)
+  if constexpr (W == 4)
+    return Lanes<Abi>(_mm256_fmadd_pd(static_cast<__m256d>(a), static_cast<__m256d>(b), static_cast<__m256d>(c)));
+#endif
+#if defined(__ARM_FEATURE_FMA)
+  if constexpr (W == 2)
+    return Lanes<Abi>(vfmaq_f64(static_cast<float64x2_t>(c), static_cast<float64x2_t>(a), static_cast<float64x2_t>(b)));
+#endif
+  return a * b + c;
+}
+// a b - c; the compiler doesn't make it of fused() and a change of sign.
+template <class Abi> inline Lanes<Abi> fused_minus(Lanes<Abi> a, Lanes<Abi> b, Lanes<Abi> c) {
+#if defined(__AVX512F__)
+  if constexpr (Lanes<Abi>::size() == 8)
+    return Lanes<Abi>(_mm512_fmsub_pd(static_cast<__m512d>(a), static_cast<__m512d>(b), static_cast<__m512d>(c)));
+#endif
+#if defined(__FMA__)
+  if constexpr (Lanes<Abi>::size() == 4)
+    return Lanes<Abi>(_mm256_fmsub_pd(static_cast<__m256d>(a), static_cast<__m256d>(b), static_cast<__m256d>(c)));
+#endif
+  return fused(a, b, -c);
 }
 template <class Abi> inline bool any(LaneMask<Abi> condition) { return stdx::any_of(condition); }
 #endif

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// From rows in memory (one disc, or the forces of one pair) to lanes of a vector and back. A row is read with whole
-// loads and transposed in registers, which is several times faster than gathering its values one by one.
+// From rows in memory (a disc, the force of a pair) to lanes of a vector and back. A row is read with whole loads and
+// transposed in registers, which is several times faster than gathering its values one by one.
 #pragma once
 
 #include "contact_law.h"
 
-#include <cstring>
 #include <utility>
 
 namespace cdem {
@@ -15,89 +14,126 @@ inline Relative<double> load_relative(const Disc<double> *discs, const int *a, c
 }
 inline double load(const double *column, double) { return *column; }
 inline void store(double *column, double value) { *column = value; }
-inline void store_forces(Forces<double> *out, const Forces<double> &f) { *out = f; }
+
+// The force on a to its slot, and the opposite one, with the torque on b, to that of b.
+inline void store_forces(Forces<double> *slots, const int *slot_a, const int *slot_b, const Forces<double> &f) {
+  slots[*slot_a] = f;
+  slots[*slot_b] = opposite(f);
+}
 
 #ifdef CDEM_HAS_SIMD
 
-template <int W> struct Raw { typedef double type __attribute__((vector_size(W * sizeof(double)))); };
+// Four values of each of W rows, in four vectors: of rows 0 and 4, 1 and 5, ... for W = 8; of row 0, 1, ... for W = 4;
+// and for W = 2, the first halves of rows 0 and 1, then the second ones.
+template <int W> using Quads = typename Raw<W>::type[4];
 
-// Of two vectors, swaps the blocks of `step` lanes that lie off the diagonal: the upper or the lower result.
-template <int step, bool upper, class R, std::size_t... lane> inline R blocks(R a, R b, std::index_sequence<lane...>) {
-  constexpr int W = sizeof...(lane);
-  if constexpr (upper)
-    return __builtin_shufflevector(a, b, ((lane & step) ? int(lane) - step + W : int(lane))...);
-  else
-    return __builtin_shufflevector(a, b, ((lane & step) ? int(lane) + W : int(lane) + step)...);
+// Two rows of four values in one vector, and taken apart again. AVX-512 has one instruction for it, which GCC 12 does
+// not find.
+[[gnu::always_inline]] inline Raw<8>::type join(Four low, Four high) {
+#if defined(__AVX512F__)
+  return _mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1);
+#else
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+#endif
+}
+[[gnu::always_inline]] inline Four low_half(Raw<8>::type r) { return __builtin_shufflevector(r, r, 0, 1, 2, 3); }
+[[gnu::always_inline]] inline Four high_half(Raw<8>::type r) {
+#if defined(__AVX512F__)
+  return _mm512_extractf64x4_pd(r, 1);
+#else
+  return __builtin_shufflevector(r, r, 4, 5, 6, 7);
+#endif
 }
 
-template <class R, std::size_t... lane> inline auto join(R low, R high, std::index_sequence<lane...>) {
-  return __builtin_shufflevector(low, high, int(lane)...);
-}
-
-// The lower (0) or upper (1) half of a vector.
-template <int which, class R, std::size_t... lane> inline auto half(R r, std::index_sequence<lane...>) {
-  return __builtin_shufflevector(r, r, int(which * sizeof...(lane) + lane)...);
-}
-
-// Transposes W vectors of W lanes.
-template <int W, int step = 1> inline void transpose(typename Raw<W>::type *r) {
-  if constexpr (step < W) {
-    constexpr std::make_index_sequence<W> lanes;
-    for (int i = 0; i < W; i++) {
-      if (i & step)
-        continue;
-      const auto a = r[i], b = r[i + step];
-      r[i] = blocks<step, true>(a, b, lanes);
-      r[i + step] = blocks<step, false>(a, b, lanes);
-    }
-    transpose<W, 2 * step>(r);
-  }
-}
-
-// W rows of two values each to two vectors.
+// The first four values of W rows and the second four.
 template <int W>
-inline void to_lanes(const Raw<2>::type *rows, typename Raw<W>::type &first, typename Raw<W>::type &second) {
-  if constexpr (W == 2) {
-    first = __builtin_shufflevector(rows[0], rows[1], 0, 2);
-    second = __builtin_shufflevector(rows[0], rows[1], 1, 3);
-  } else {
-    typename Raw<W / 2>::type low[2], high[2];
-    to_lanes<W / 2>(rows, low[0], low[1]);
-    to_lanes<W / 2>(rows + W / 2, high[0], high[1]);
-    first = join(low[0], high[0], std::make_index_sequence<W>());
-    second = join(low[1], high[1], std::make_index_sequence<W>());
+inline void load_quads(Quads<W> &first, Quads<W> &second, const Disc<double> *discs, const int *index) {
+  auto row = [=](int i) { return &discs[index[i]].x; };
+  for (int i = 0; i < 4; i++) {
+    if constexpr (W == 8) {
+      const double *const low = row(i), *const high = row(i + 4);
+      first[i] = join(load_raw<Four>(low), load_raw<Four>(high));
+      second[i] = join(load_raw<Four>(low + 4), load_raw<Four>(high + 4));
+    } else if constexpr (W == 4) {
+      first[i] = load_raw<Four>(row(i));
+      second[i] = load_raw<Four>(row(i) + 4);
+    } else {
+      first[i] = load_raw<Two>(row(i % 2) + 2 * (i / 2));
+      second[i] = load_raw<Two>(row(i % 2) + 2 * (i / 2) + 4);
+    }
   }
 }
 
-template <class R> inline R load_row(const double *row) {
-  R r;
-  std::memcpy(&r, row, sizeof(r));
-  return r;
+template <int W> inline void store_quads(const Quads<W> &q, Forces<double> *slots, const int *index) {
+  auto row = [=](int i) { return &slots[index[i]].fx; };
+  for (int i = 0; i < 4; i++) {
+    if constexpr (W == 8) {
+      store_raw(row(i), low_half(q[i]));
+      store_raw(row(i + 4), high_half(q[i]));
+    } else if constexpr (W == 4) {
+      store_raw(row(i), q[i]);
+    } else {
+      store_raw(row(i % 2) + 2 * (i / 2), q[i]);
+    }
+  }
+}
+
+// Every other value of a and of b, in turn: of two rows of four values a, b: a0 b0 a2 b2, or a1 b1 a3 b3.
+template <int odd, class R, std::size_t... l> inline R zip(R a, R b, std::index_sequence<l...>) {
+  constexpr int W = sizeof...(l);
+  return __builtin_shufflevector(a, b, (int(l - l % 2) + odd + (l % 2 ? W : 0))...);
+}
+
+// Of each four values the first (0) or last (1) two of a, then those of b.
+template <int last, class R, std::size_t... l> inline R pack(R a, R b, std::index_sequence<l...>) {
+  constexpr int W = sizeof...(l);
+  return __builtin_shufflevector(a, b, (int(l - l % 4 + l % 2) + 2 * last + (l % 4 < 2 ? 0 : W))...);
+}
+
+// Quads of rows to four vectors of one value each, or back: each block of four by four, or two by
+// two, is transposed.
+template <int W> inline void transpose(Quads<W> &q) {
+  constexpr std::make_index_sequence<W> lanes;
+  if constexpr (W == 2) {
+    const auto a = q[0], b = q[1], c = q[2], d = q[3];
+    q[0] = zip<0>(a, b, lanes), q[1] = zip<1>(a, b, lanes), q[2] = zip<0>(c, d, lanes), q[3] = zip<1>(c, d, lanes);
+  } else {
+    const auto a = zip<0>(q[0], q[1], lanes), b = zip<1>(q[0], q[1], lanes);
+    const auto c = zip<0>(q[2], q[3], lanes), d = zip<1>(q[2], q[3], lanes);
+    q[0] = pack<0>(a, c, lanes), q[1] = pack<0>(b, d, lanes), q[2] = pack<1>(a, c, lanes), q[3] = pack<1>(b, d, lanes);
+  }
+}
+
+// opposite() of quad i of forces.
+template <class R, std::size_t... l> inline R opposite_quad(R q, int i, std::index_sequence<l...>) {
+  if constexpr (sizeof...(l) == 2)
+    return i < 2 ? -q : __builtin_shufflevector(q, q, 1, 0);
+  return __builtin_shufflevector(q, q, int(l % 4 < 2 ? l : l ^ 1)...) * R{(l % 4 < 2 ? -1.0 : 1.0)...};
 }
 
 // Differences are taken of whole rows, before they are transposed.
 template <class Abi>
 inline Relative<Lanes<Abi>> load_relative(const Disc<double> *discs, const int *a, const int *b, Lanes<Abi>) {
   using V = Lanes<Abi>;
-  constexpr int W = V::size(), FIELDS = sizeof(Disc<double>) / sizeof(double);
-  static_assert(FIELDS % W == 0);
-  using R = typename Raw<W>::type;
-  using Spins = Raw<2>::type;
-
-  R field[FIELDS];
-  for (int part = 0; part < FIELDS; part += W) {
-    for (int i = 0; i < W; i++)
-      field[part + i] = load_row<R>(&discs[a[i]].x + part) - load_row<R>(&discs[b[i]].x + part);
-    transpose<W>(field + part);
-  }
-  Spins spins[W];
-  for (int i = 0; i < W; i++)
-    spins[i] = load_row<Spins>(&discs[a[i]].omega_half) + load_row<Spins>(&discs[b[i]].omega_half);
-  R half, now;
-  to_lanes<W>(spins, half, now);
-  return {{V(field[0]), V(field[1]), V(field[2]), V(field[3]), V(field[4]), V(field[5]), V(field[6]), V(field[7])},
-          V(half),
-          V(now)};
+  constexpr int W = V::size();
+  Quads<W> of_a, of_b, rest_of_a, rest_of_b;
+  load_quads<W>(of_a, rest_of_a, discs, a);
+  load_quads<W>(of_b, rest_of_b, discs, b);
+  for (int i = 0; i < 4; i++)
+    of_a[i] -= of_b[i];
+  transpose<W>(of_a);
+  transpose<W>(rest_of_a);
+  transpose<W>(rest_of_b);
+  return {V(of_a[0]),
+          V(of_a[1]),
+          V(of_a[2]),
+          V(of_a[3]),
+          V(rest_of_a[0] - rest_of_b[0]),
+          V(rest_of_a[1] - rest_of_b[1]),
+          V(rest_of_a[2]),
+          V(rest_of_a[3]),
+          V(rest_of_b[2]),
+          V(rest_of_b[3])};
 }
 
 template <class Abi> inline Lanes<Abi> load(const double *column, Lanes<Abi>) {
@@ -107,37 +143,16 @@ template <class Abi> inline void store(double *column, Lanes<Abi> value) {
   value.copy_to(column, stdx::vector_aligned);
 }
 
-// Writes four vectors of W lanes as W rows of four values.
-template <int W> inline void store_rows(double *out, const typename Raw<W>::type *r) {
-  using R = typename Raw<W>::type;
-  if constexpr (W == 2) {
-    for (int half = 0; half < 4; half += 2) {
-      R pair[2] = {r[half], r[half + 1]};
-      transpose<2>(pair);
-      for (int i = 0; i < 2; i++)
-        std::memcpy(out + 4 * i + half, &pair[i], sizeof(R));
-    }
-  } else if constexpr (W == 4) {
-    R row[4] = {r[0], r[1], r[2], r[3]};
-    transpose<4>(row);
-    for (int i = 0; i < 4; i++)
-      std::memcpy(out + 4 * i, &row[i], sizeof(R));
-  } else {
-    constexpr std::make_index_sequence<W / 2> lanes;
-    const typename Raw<W / 2>::type low[4] = {half<0>(r[0], lanes), half<0>(r[1], lanes), half<0>(r[2], lanes),
-                                              half<0>(r[3], lanes)};
-    const typename Raw<W / 2>::type high[4] = {half<1>(r[0], lanes), half<1>(r[1], lanes), half<1>(r[2], lanes),
-                                               half<1>(r[3], lanes)};
-    store_rows<W / 2>(out, low);
-    store_rows<W / 2>(out + 2 * W, high);
-  }
-}
-
-template <class Abi> inline void store_forces(Forces<double> *out, const Forces<Lanes<Abi>> &f) {
+template <class Abi>
+inline void store_forces(Forces<double> *slots, const int *slot_a, const int *slot_b, const Forces<Lanes<Abi>> &f) {
   constexpr int W = Lanes<Abi>::size();
   using R = typename Raw<W>::type;
-  const R r[4] = {static_cast<R>(f.fx), static_cast<R>(f.fy), static_cast<R>(f.torque_a), static_cast<R>(f.torque_b)};
-  store_rows<W>(&out->fx, r);
+  Quads<W> on_a{R(f.fx), R(f.fy), R(f.torque_a), R(f.torque_b)}, on_b;
+  transpose<W>(on_a);
+  for (int i = 0; i < 4; i++)
+    on_b[i] = opposite_quad(on_a[i], i, std::make_index_sequence<W>());
+  store_quads<W>(on_a, slots, slot_a);
+  store_quads<W>(on_b, slots, slot_b);
 }
 
 #endif

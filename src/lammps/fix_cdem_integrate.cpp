@@ -40,26 +40,16 @@ FixCDEMIntegrate::FixCDEMIntegrate(LAMMPS *lmp, int narg, char **arg) : Fix(lmp,
   if (find(lmp))
     error->all(FLERR, "Fix cdem/integrate {}: there is one already, {}", id, find(lmp)->id);
 
-  int iarg = 3;
-  if (iarg < narg && strcmp(arg[iarg], "dt") == 0) {
-    const std::string word = iarg + 1 < narg ? arg[iarg + 1] : "nothing";
-    if (word == "check")
-      rule = Step::check;
-    else if (word == "any")
-      rule = Step::any;
-    else if (word == "auto")
-      rule = Step::automatic;
+  for (int iarg = 3; iarg < narg;) {
+    if (strcmp(arg[iarg], "dt") == 0)
+      parse_step_rule(narg, arg, ++iarg);
+    else if (const int used = parse_body_force(narg - iarg, arg + iarg))
+      iarg += used;
     else
-      error->all(FLERR, "Fix cdem/integrate: dt {}: must be check, any or auto", word);
-    iarg += 2;
-    if (rule == Step::automatic && iarg < narg) {
-      max_step = utils::numeric(FLERR, arg[iarg++], false, lmp);
-      if (!(max_step > 0))
-        error->all(FLERR, "Fix cdem/integrate: dt auto {}: the maximum must be positive", max_step);
-    }
+      error->all(FLERR,
+                 "Fix cdem/integrate: unknown keyword {}; allowed: dt check|any|auto [MAX], gravity GX GY, drag T",
+                 arg[iarg]);
   }
-  if (iarg < narg)
-    error->all(FLERR, "Fix cdem/integrate: unknown keyword {}; allowed: dt check|any|auto [MAX]", arg[iarg]);
 
   time_integrate = 1;
   scalar_flag = 1;
@@ -69,12 +59,62 @@ FixCDEMIntegrate::FixCDEMIntegrate(LAMMPS *lmp, int narg, char **arg) : Fix(lmp,
   create_attribute = 1;
   restart_global = 1;
   restart_peratom = 1;
-  comm_forward = NCOLUMNS;
+  force_reneighbor = 1;
+  next_reneighbor = -1;
   FixCDEMIntegrate::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
   for (int i = 0; i < atom->nlocal; i++)
     FixCDEMIntegrate::set_arrays(i);
+}
+
+void FixCDEMIntegrate::parse_step_rule(int narg, char **arg, int &iarg) {
+  const std::string word = iarg < narg ? arg[iarg++] : "nothing";
+  if (word == "check")
+    rule = Step::check;
+  else if (word == "any")
+    rule = Step::any;
+  else if (word == "auto")
+    rule = Step::automatic;
+  else
+    error->all(FLERR, "Fix cdem/integrate: dt {}: must be check, any or auto", word);
+  if (rule == Step::automatic && iarg < narg && utils::is_double(arg[iarg])) {
+    max_step = number("dt auto", narg, arg, iarg);
+    if (!(max_step > 0))
+      error->all(FLERR, "Fix cdem/integrate: dt auto {}: the maximum must be positive", max_step);
+  }
+}
+
+// Arguments that were used, 0 if the first is no keyword of this.
+int FixCDEMIntegrate::parse_body_force(int narg, char **arg) {
+  int iarg = 1;
+  if (strcmp(arg[0], "gravity") == 0) {
+    for (double &component : gravity)
+      component = number("gravity", narg, arg, iarg);
+  } else if (strcmp(arg[0], "drag") == 0) {
+    if (narg > 1 && strcmp(arg[1], "none") == 0) {
+      drag = 0;
+      return 2;
+    }
+    const double time = number("drag", narg, arg, iarg);
+    if (!(time > 0))
+      error->all(FLERR, "Fix cdem/integrate: drag {}: the time must be positive (s), or none", time);
+    drag = 1 / time;
+  } else {
+    return 0;
+  }
+  return iarg;
+}
+
+int FixCDEMIntegrate::modify_param(int narg, char **arg) { return parse_body_force(narg, arg); }
+
+double FixCDEMIntegrate::number(const char *keyword, int narg, char **arg, int &iarg) const {
+  if (iarg >= narg)
+    error->all(FLERR, "Fix cdem/integrate: {} has too few values", keyword);
+  const double value = utils::numeric(FLERR, arg[iarg++], false, lmp);
+  if (!std::isfinite(value))
+    error->all(FLERR, "Fix cdem/integrate: {} {} must be a finite number", keyword, value);
+  return value;
 }
 
 FixCDEMIntegrate::~FixCDEMIntegrate() {
@@ -84,7 +124,7 @@ FixCDEMIntegrate::~FixCDEMIntegrate() {
 }
 
 int FixCDEMIntegrate::setmask() {
-  return FixConst::INITIAL_INTEGRATE | FixConst::POST_NEIGHBOR | FixConst::FINAL_INTEGRATE;
+  return FixConst::INITIAL_INTEGRATE | FixConst::POST_NEIGHBOR | FixConst::POST_FORCE | FixConst::FINAL_INTEGRATE;
 }
 
 void FixCDEMIntegrate::init() {
@@ -163,17 +203,17 @@ bool FixCDEMIntegrate::knows_acceleration(int i) const {
 }
 
 void FixCDEMIntegrate::take_acceleration(int i) {
-  state[i][AX] = inverse[i].mass * atom->f[i][0];
-  state[i][AY] = inverse[i].mass * atom->f[i][1];
-  state[i][ALPHA] = inverse[i].inertia * atom->torque[i][2];
+  state[i][AX] = inverses[i].mass * atom->f[i][0];
+  state[i][AY] = inverses[i].mass * atom->f[i][1];
+  state[i][ALPHA] = inverses[i].inertia * atom->torque[i][2];
 }
 
 // Divisions, done once for many steps.
 void FixCDEMIntegrate::post_neighbor() {
-  inverse.resize(atom->nlocal);
+  inverses.resize(atom->nlocal);
   for (int i = 0; i < atom->nlocal; i++) {
     const double m = atom->rmass[i], r = atom->radius[i];
-    inverse[i] = is_free(i) ? Inverse{1 / m, 1 / (m * r * r * inertia[atom->type[i]])} : Inverse{0, 0};
+    inverses[i] = is_free(i) ? Inverse{1 / m, 1 / (m * r * r * inertia[atom->type[i]])} : Inverse{0, 0};
   }
 }
 
@@ -181,6 +221,7 @@ void FixCDEMIntegrate::post_neighbor() {
 // anew.
 void FixCDEMIntegrate::setup(int) {
   post_neighbor();
+  post_force(0);
   to_start.clear();
   for (int i = 0; i < atom->nlocal; i++) {
     if (is_free(i) && !knows_acceleration(i)) {
@@ -214,6 +255,21 @@ void FixCDEMIntegrate::initial_integrate(int) {
   }
 }
 
+cdem::StepRule FixCDEMIntegrate::step_rule() const {
+  return {update->dt, 0.5 * update->dt * weight, gravity[0], gravity[1], drag};
+}
+
+void FixCDEMIntegrate::post_force(int) {
+  if (!has_body_forces())
+    return;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!is_free(i))
+      continue;
+    for (int k = 0; k < 2; k++)
+      atom->f[i][k] += atom->rmass[i] * (gravity[k] - drag * atom->v[i][k]);
+  }
+}
+
 void FixCDEMIntegrate::final_integrate() {
   const double half = 0.5 * update->dt;
   const int n = atom->nlocal, *const mask = atom->mask;
@@ -222,9 +278,9 @@ void FixCDEMIntegrate::final_integrate() {
   for (int i = 0; i < n; i++, v += 3, omega += 3, f += 3, torque += 3, s += NCOLUMNS) {
     if (!(mask[i] & groupbit))
       continue;
-    s[AX] = inverse[i].mass * f[0];
-    s[AY] = inverse[i].mass * f[1];
-    s[ALPHA] = inverse[i].inertia * torque[2];
+    s[AX] = inverses[i].mass * f[0];
+    s[AY] = inverses[i].mass * f[1];
+    s[ALPHA] = inverses[i].inertia * torque[2];
     v[0] += half * s[AX];
     v[1] += half * s[AY];
     omega[2] += half * s[ALPHA];
@@ -258,17 +314,6 @@ int FixCDEMIntegrate::pack_exchange(int i, double *buf) {
 int FixCDEMIntegrate::unpack_exchange(int i, double *buf) {
   std::copy_n(buf, int(NCOLUMNS), state[i]);
   return NCOLUMNS;
-}
-
-int FixCDEMIntegrate::pack_forward_comm(int n, int *list, double *buf, int, int *) {
-  for (int k = 0; k < n; k++)
-    buf = std::copy_n(state[list[k]], int(NCOLUMNS), buf);
-  return n * NCOLUMNS;
-}
-
-void FixCDEMIntegrate::unpack_forward_comm(int n, int first, double *buf) {
-  for (int i = first; i < first + n; i++, buf += NCOLUMNS)
-    std::copy_n(buf, int(NCOLUMNS), state[i]);
 }
 
 void FixCDEMIntegrate::write_restart(FILE *fp) {

@@ -32,6 +32,7 @@ public:
   void initial_integrate(int) override;
   void final_integrate() override;
   double compute_vector(int) override;
+  bool has_variable() const { return !stress_variable.empty(); }
   void write_restart(FILE *) override;
   void restart(char *) override;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_cdem_trm.h"
 
+#include "grain_rows.h"
+
 #include "atom.h"
 #include "update.h"
 
@@ -32,14 +34,21 @@ int FixCDEMTRM::setmask() { return FixConst::POST_INTEGRATE; }
 // Here v and omega are those of the half step, with which the step was made: dx = dt v and d theta = dt omega, without
 // differences of positions, which periodic boundaries and migration would break.
 void FixCDEMTRM::post_integrate() {
+  for (int i = 0; i < atom->nlocal; i++)
+    add(i, atom->v[i][0], atom->v[i][1], atom->omega[i][2]);
+}
+
+void FixCDEMTRM::add(const GrainRows &rows) {
+  for (int i = 0; i < atom->nlocal; i++)
+    add(i, rows.of_grain(i).vx_half, rows.of_grain(i).vy_half, rows.of_grain(i).omega_half);
+}
+
+void FixCDEMTRM::add(int i, double vx, double vy, double omega) {
+  if (!(atom->mask[i] & groupbit))
+    return;
   const double dt = update->dt;
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit))
-      continue;
-    const double *const v = atom->v[i];
-    sums[i].rolled += atom->radius[i] * std::fabs(dt * atom->omega[i][2]);
-    sums[i].path += dt * std::sqrt(v[0] * v[0] + v[1] * v[1]);
-  }
+  sums[i].rolled += atom->radius[i] * std::fabs(dt * omega);
+  sums[i].path += dt * std::sqrt(vx * vx + vy * vy);
 }
 
 double FixCDEMTRM::memory_usage() { return static_cast<double>(sums.capacity() * sizeof(Sums)); }

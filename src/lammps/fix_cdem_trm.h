@@ -9,6 +9,8 @@
 
 namespace LAMMPS_NS {
 
+class GrainRows;
+
 class FixCDEMTRM : public Fix {
 public:
   struct Sums {
@@ -20,6 +22,8 @@ public:
   ~FixCDEMTRM() override;
 
   const Sums &operator[](int i) const { return sums[i]; }
+
+  void add(const GrainRows &); // a step made on rows
 
   int setmask() override;
   void post_integrate() override;
@@ -36,6 +40,8 @@ public:
   int maxsize_restart() override;
 
 private:
+  void add(int i, double vx, double vy, double omega);
+
   std::vector<Sums> sums; // per atom
 };
 

@@ -9,6 +9,7 @@
 #include "input.h"
 #include "lammps.h"
 #include "modify.h"
+#include "update.h"
 #include "utils.h"
 #include "variable.h"
 
@@ -36,6 +37,8 @@ void LAMMPS::post_create() {
       (*modify->compute_map)[s.name] = s.compute;
     if (s.command)
       (*input->command_map)[s.name] = s.command;
+    if (s.run)
+      (*update->integrate_map)[s.name] = s.run;
   }
   using PostCreate = void (*)(LAMMPS *); // how a non-virtual member function is called (Itanium C++ ABI)
   static const auto library_post_create =

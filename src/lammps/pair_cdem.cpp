@@ -29,7 +29,7 @@ namespace {
 constexpr double DEGREE = M_PI / 180;
 }
 
-PairCDEM::PairCDEM(LAMMPS *lmp) : Pair(lmp) {
+PairCDEM::PairCDEM(LAMMPS *lmp) : Pair(lmp), rows(lmp) {
   restartinfo = 1;
   single_enable = 1;
   single_extra = 3;
@@ -37,6 +37,7 @@ PairCDEM::PairCDEM(LAMMPS *lmp) : Pair(lmp) {
   no_virial_fdotr_compute = 1;
   centroidstressflag = CENTROID_NOTAVAIL;
   finitecutflag = 1;
+  comm_forward = GrainRows::COMM_SIZE;
 }
 
 PairCDEM::~PairCDEM() {
@@ -139,8 +140,8 @@ void PairCDEM::check_setting() const {
 void PairCDEM::init_style() {
   integrate = FixCDEMIntegrate::find(lmp);
   check_setting();
-  read_shapes();
-  kernel = cdem::force_kernel(law, limit_damping);
+  kernels = cdem::kernels(law, limit_damping);
+  rows.init(integrate, kernels);
   Shearbox::request_half_size_list(lmp, this, instance_me);
 
   if (!history)
@@ -160,140 +161,143 @@ double PairCDEM::init_one(int i, int j) {
   return largest_radius[i] + largest_radius[j];
 }
 
-void PairCDEM::read_shapes() {
-  shapes.assign(1, nullptr);
-  for (int type = 1; type <= atom->ntypes; type++)
-    shapes.push_back(&FixCDEMShape::shape(lmp, type));
-  clumps = std::any_of(shapes.begin() + 1, shapes.end(), [](const auto *s) { return s->discs().size() > 1; });
-}
-
 void PairCDEM::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
-  if (atom->nghost || comm->nprocs > 1)
-    Shearbox::forward_comm(lmp, integrate);
   const bool rebuilt = neighbor->ago == 0;
-  if (clumps && rebuilt)
-    map_rows();
+  if (rebuilt)
+    rows.map();
 
   // During a step, v and omega are those of the half step; at setup they are those of the full step.
-  const double forward = update->setupflag ? 0 : 0.5 * update->dt * integrate->prediction_weight();
-  clumps ? fill_clump_rows(forward) : fill_disc_rows(forward);
+  rows.fill(0, atom->nlocal, update->setupflag ? 0 : integrate->step_rule().forward);
+  exchange_ghosts();
   if (rebuilt) {
     build_list();
-  } else if (clumps && turned_out_of_list()) {
+    neighbours_built_at.resize(atom->nlocal);
+    for (int i = 0; i < atom->nlocal; i++)
+      neighbours_built_at[i] = {atom->x[i][0], atom->x[i][1], 0};
+  } else if (turned_out_of_list()) {
     store_history();
     build_list();
   }
   history_in_list = true;
-  pairs.compute_forces(kernel, rows.data(), update->setupflag ? 0 : update->dt);
-  clumps ? sum_clump_forces() : sum_disc_forces();
+  forces();
   if (evflag)
     tally();
 }
 
-void PairCDEM::map_rows() {
-  const int nall = atom->nlocal + atom->nghost;
-  first_row.resize(nall + 1);
-  grain_of_row.clear();
-  for (int i = 0; i < nall; i++) {
-    first_row[i] = int(grain_of_row.size());
-    grain_of_row.insert(grain_of_row.end(), shapes[atom->type[i]]->discs().size(), i);
-  }
-  first_row[nall] = int(grain_of_row.size());
+void PairCDEM::exchange_ghosts() {
+  if (atom->nghost || comm->nprocs > 1)
+    Shearbox::forward_comm(lmp, this);
+  rows.expand_ghosts();
 }
 
-void PairCDEM::fill_disc_rows(double forward) {
-  const int nall = atom->nlocal + atom->nghost;
-  rows.resize(nall);
-  for (int i = 0; i < nall; i++) {
-    const double *const x = atom->x[i], *const v = atom->v[i], omega = atom->omega[i][2];
-    rows[i] = {x[0], x[1], v[0], v[1], v[0], v[1], omega, omega};
-    if (forward == 0)
-      continue;
-    const double *const a = integrate->state[i];
-    rows[i].vx += forward * a[FixCDEMIntegrate::AX];
-    rows[i].vy += forward * a[FixCDEMIntegrate::AY];
-    rows[i].omega += forward * a[FixCDEMIntegrate::ALPHA];
+int PairCDEM::pack_forward_comm(int n, int *list, double *buf, int pbc_flag, int *pbc) {
+  return rows.pack(n, list, buf, pbc_flag, pbc);
+}
+
+void PairCDEM::unpack_forward_comm(int n, int first, double *buf) { rows.unpack(n, first, buf); }
+
+void PairCDEM::pair_forces(int block) {
+  const double dt = update->setupflag ? 0 : update->dt;
+  const cdem::PairColumns columns = pairs.columns(slots.slots.data());
+  for (int k = pairs.first_segment[block]; k < pairs.first_segment[block + 1]; k++) {
+    const auto &segment = pairs.segments[k];
+    kernels.forces(rows.discs(), columns, segment.material, segment.begin, segment.end, dt);
   }
 }
 
-// A disc at offset o from the grain's centre moves with v + omega x o. Over the step it moved with the offset of the
-// half step, o - dt/2 omega x o, which adds dt/2 omega^2 o.
-void PairCDEM::fill_clump_rows(double forward) {
-  const int nall = atom->nlocal + atom->nghost;
-  const double half = update->setupflag ? 0 : 0.5 * update->dt;
-  rows.resize(grain_of_row.size());
-  auto *row = rows.data();
-  for (int i = 0; i < nall; i++) {
-    const double *const x = atom->x[i], *const v = atom->v[i], omega = atom->omega[i][2];
-    const double *const a = integrate->state[i];
-    const bool predict = forward != 0;
-    const double vx = predict ? v[0] + forward * a[FixCDEMIntegrate::AX] : v[0];
-    const double vy = predict ? v[1] + forward * a[FixCDEMIntegrate::AY] : v[1];
-    const double spin = predict ? omega + forward * a[FixCDEMIntegrate::ALPHA] : omega;
-    if (first_row[i + 1] - first_row[i] == 1) {
-      *row++ = {x[0], x[1], v[0], v[1], vx, vy, omega, spin};
-      continue;
-    }
-    const double inward = half * omega * omega;
-    const double c = atom->radius[i] * std::cos(a[FixCDEMIntegrate::ANGLE]);
-    const double s = atom->radius[i] * std::sin(a[FixCDEMIntegrate::ANGLE]);
-    for (const auto &member : shapes[atom->type[i]]->discs()) {
-      const double ox = c * member.x - s * member.y, oy = s * member.x + c * member.y;
-      *row++ = {x[0] + ox,
-                x[1] + oy,
-                v[0] - omega * oy + inward * ox,
-                v[1] + omega * ox + inward * oy,
-                vx - spin * oy,
-                vy + spin * ox,
-                omega,
-                spin};
-    }
+void PairCDEM::forces() {
+  for (int block = 0; block < slots.blocks(); block++) {
+    pair_forces(block);
+    rows.sum_block(slots.block(block));
   }
+  for (int i = 0; i < atom->nlocal; i++) {
+    const auto [fx, fy, torque] = rows.force_on(i);
+    atom->f[i][0] += fx;
+    atom->f[i][1] += fy;
+    atom->torque[i][2] += torque;
+  }
+}
+
+// A pair belongs to the block of its lower row. So once the pairs of a block are done, so are all pairs of its grains,
+// and these can be moved while their forces are still in the cache: later blocks don't look at them.
+void PairCDEM::forces_and_advance(const cdem::StepRule &step, cdem::Fastest &fastest) {
+  for (int block = 0; block < slots.blocks(); block++) {
+    pair_forces(block);
+    rows.advance(slots.block(block), block_starts[block], block_starts[block + 1], step, fastest);
+  }
+}
+
+cdem::DiscForce PairCDEM::force_on(int i) {
+  rows.sum_grain(slots, i);
+  return rows.force_on(i);
+}
+
+double PairCDEM::Place::moved_and_turned(const cdem::Disc<double> &now, double angle_now, double reach) const {
+  const double dx = now.x - x, dy = now.y - y;
+  return std::sqrt(dx * dx + dy * dy) + reach * std::fabs(angle_now - angle);
 }
 
 // LAMMPS rebuilds its list of grain pairs when a centre has moved by half the skin. The list of disc pairs drawn from
 // it also ages when a grain turns; that is for this rank alone to see to, and needs no communication.
 bool PairCDEM::turned_out_of_list() const {
-  const double most = 0.5 * neighbor->skin;
-  for (std::size_t i = 0; i < built_at.size(); i++) {
-    const Place &then = built_at[i];
-    if (then.arm == 0)
-      continue;
-    const double dx = atom->x[i][0] - then.x, dy = atom->x[i][1] - then.y;
-    const double turn = std::fabs(integrate->state[i][FixCDEMIntegrate::ANGLE] - then.angle);
-    const double left = most - turn * then.arm;
-    if (left < 0 || dx * dx + dy * dy > left * left)
-      return true;
-  }
+  for (std::size_t i = 0; i < discs_built_at.size(); i++)
+    if (const double reach = rows.reach(i); reach > 0)
+      if (discs_built_at[i].moved_and_turned(rows.of_grain(i), rows.angle(i), reach) > 0.5 * neighbor->skin)
+        return true;
   return false;
 }
 
+double PairCDEM::room() const {
+  double most = 0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    most = std::max(most, neighbours_built_at[i].moved_and_turned(rows.of_grain(i), 0, 0));
+    if (rows.has_clumps())
+      most = std::max(most, discs_built_at[i].moved_and_turned(rows.of_grain(i), rows.angle(i), rows.reach(i)));
+  }
+  return 0.5 * neighbor->skin - most;
+}
+
+double PairCDEM::largest_reach() const {
+  double reach = 0;
+  if (rows.has_clumps())
+    for (int i = 0; i < atom->nlocal; i++)
+      reach = std::max(reach, rows.reach(i));
+  return reach;
+}
+
 void PairCDEM::build_list() {
+  divide_into_blocks();
   find_candidates();
-  sort_by_material();
+  sort_candidates();
   pairs.for_each([this](int k, const cdem::Material &) {
     set_constants(k);
     recall_history(k);
   });
-  sums.build(pairs, rows_of(atom->nlocal), [this](int p, int q) { return row_before(p, q); });
-  if (!clumps)
-    return;
-  built_at.resize(atom->nlocal + atom->nghost);
-  for (std::size_t i = 0; i < built_at.size(); i++)
-    built_at[i] = {atom->x[i][0], atom->x[i][1], integrate->state[i][FixCDEMIntegrate::ANGLE],
-                   atom->radius[i] * shapes[atom->type[i]]->reach()};
+  std::vector<int> row_starts;
+  for (int grain : block_starts)
+    row_starts.push_back(rows.rows_of(grain));
+  slots.build(pairs, row_starts, [this](int p, int q) { return row_before(p, q); });
+
+  discs_built_at.resize(rows.has_clumps() ? atom->nlocal + atom->nghost : 0);
+  for (std::size_t i = 0; i < discs_built_at.size(); i++)
+    discs_built_at[i] = {rows.of_grain(i).x, rows.of_grain(i).y, rows.angle(i)};
+}
+
+// Small enough that a block's forces stay in the cache.
+void PairCDEM::divide_into_blocks() {
+  constexpr int ROWS = 512;
+  block_starts.assign(1, 0);
+  for (int i = 1; i < atom->nlocal; i++)
+    if (rows.rows_of(i + 1) - rows.rows_of(block_starts.back()) > ROWS)
+      block_starts.push_back(i);
+  block_starts.push_back(atom->nlocal);
 }
 
 // The order of all sums: by the id of the grain, then by the disc.
 bool PairCDEM::row_before(int p, int q) const {
-  const tagint tag_p = atom->tag[grain(p)], tag_q = atom->tag[grain(q)];
-  return tag_p != tag_q ? tag_p < tag_q : disc(p) < disc(q);
-}
-
-double PairCDEM::disc_radius(int row) const {
-  const int i = grain(row);
-  return clumps ? atom->radius[i] * shapes[atom->type[i]]->discs()[disc(row)].r : atom->radius[i];
+  const tagint tag_p = atom->tag[rows.grain(p)], tag_q = atom->tag[rows.grain(q)];
+  return tag_p != tag_q ? tag_p < tag_q : rows.disc(p) < rows.disc(q);
 }
 
 void PairCDEM::find_candidates() {
@@ -304,89 +308,67 @@ void PairCDEM::find_candidates() {
       const int j = list->firstneigh[i][jj] & NEIGHMASK;
       if (!integrate->is_free(i) && !integrate->is_free(j))
         continue;
-      if (!clumps) {
+      if (!rows.has_clumps()) {
         add_candidate(i, j);
         continue;
       }
-      for (int p = first_row[i]; p < first_row[i + 1]; p++)
-        for (int q = first_row[j]; q < first_row[j + 1]; q++)
+      for (int p = rows.rows_of(i); p < rows.rows_of(i + 1); p++)
+        for (int q = rows.rows_of(j); q < rows.rows_of(j + 1); q++)
           if (std::hypot(rows[p].x - rows[q].x, rows[p].y - rows[q].y) <
-              disc_radius(p) + disc_radius(q) + neighbor->skin)
+              rows.radius(p) + rows.radius(q) + neighbor->skin)
             add_candidate(p, q);
     }
   }
 }
 
+// Segments are by block, then by material.
 void PairCDEM::add_candidate(int p, int q) {
-  const int i = grain(p), j = grain(q);
+  const int i = rows.grain(p), j = rows.grain(q), types = atom->ntypes + 1;
   const bool p_first = atom->tag[i] < atom->tag[j];
   const auto [low, high] = std::minmax(atom->type[i], atom->type[j]);
-  candidates.push_back({p_first ? p : q, p_first ? q : p, low * (atom->ntypes + 1) + high});
+  const int block =
+      int(std::upper_bound(block_starts.begin(), block_starts.end(), std::min(i, j)) - block_starts.begin()) - 1;
+  candidates.push_back({p_first ? p : q, p_first ? q : p, (block * types + low) * types + high});
 }
 
-void PairCDEM::sort_by_material() {
-  const int types = atom->ntypes + 1;
-  std::vector<cdem::Material> material(types * types);
-  std::vector<int> sizes(types * types, 0), next(types * types, 0);
-  for (const auto &c : candidates) {
-    material[c.material] = materials[c.material / types][c.material % types];
-    sizes[c.material]++;
-  }
-  pairs.lay_out(material, sizes);
+void PairCDEM::sort_candidates() {
+  std::vector<cdem::Material> by_types;
+  for (const auto &row : materials)
+    by_types.insert(by_types.end(), row.begin(), row.end());
+  std::vector<int> sizes(by_types.size() * (block_starts.size() - 1), 0), next(sizes.size(), 0);
+  for (const auto &c : candidates)
+    sizes[c.segment]++;
+  pairs.lay_out(by_types, sizes, law);
 
   auto segment = pairs.segments.begin();
-  for (int m = 0; m < types * types; m++)
+  for (std::size_t m = 0; m < sizes.size(); m++)
     if (sizes[m])
       next[m] = (segment++)->begin;
   for (const auto &c : candidates) {
-    const int k = next[c.material]++;
+    const int k = next[c.segment]++;
     pairs.a[k] = c.a;
     pairs.b[k] = c.b;
   }
 }
 
 void PairCDEM::set_constants(int k) {
-  const int i = grain(pairs.a[k]), j = grain(pairs.b[k]);
+  const int i = rows.grain(pairs.a[k]), j = rows.grain(pairs.b[k]);
   const double mi = atom->rmass[i], mj = atom->rmass[j];
   const double m = !integrate->is_free(j) ? mi : !integrate->is_free(i) ? mj : mi * mj / (mi + mj);
-  const double ra = disc_radius(pairs.a[k]), rb = disc_radius(pairs.b[k]);
+  const double ra = rows.radius(pairs.a[k]), rb = rows.radius(pairs.b[k]);
   pairs.radius_sum[k] = ra + rb;
-  pairs.radius_difference[k] = ra - rb;
+  pairs.half_difference[k] = 0.5 * (ra - rb);
   pairs.root_mass[k] = 2 * std::sqrt(m);
 }
 
 void PairCDEM::recall_history(int k) {
-  const int i = grain(pairs.a[k]), j = grain(pairs.b[k]), p = disc(pairs.a[k]), q = disc(pairs.b[k]);
+  const int i = rows.grain(pairs.a[k]), j = rows.grain(pairs.b[k]), p = rows.disc(pairs.a[k]),
+            q = rows.disc(pairs.b[k]);
   const FixCDEMHistory::Contact *const known =
       i < atom->nlocal ? history->find_contact(i, atom->tag[j], p, q) : history->find_contact(j, atom->tag[i], q, p);
   pairs.es[k] = known ? known->es : 0;
-  pairs.en[k] = known ? known->en : 0;
-}
-
-void PairCDEM::sum_disc_forces() {
-  double *const f = atom->f[0], *const torque = atom->torque[0];
-  for (int i = 0; i < atom->nlocal; i++) {
-    const cdem::DiscForce sum = sums(pairs, i);
-    f[3 * i] += sum.fx;
-    f[3 * i + 1] += sum.fy;
-    torque[3 * i + 2] += sum.torque;
-  }
-}
-
-void PairCDEM::sum_clump_forces() {
-  for (int i = 0; i < atom->nlocal; i++) {
-    cdem::DiscForce sum{0, 0, 0};
-    for (int p = first_row[i]; p < first_row[i + 1]; p++) {
-      const cdem::DiscForce d = sums(pairs, p);
-      const double ox = rows[p].x - atom->x[i][0], oy = rows[p].y - atom->x[i][1];
-      sum.fx += d.fx;
-      sum.fy += d.fy;
-      sum.torque += d.torque + (ox * d.fy - oy * d.fx);
-    }
-    atom->f[i][0] += sum.fx;
-    atom->f[i][1] += sum.fy;
-    atom->torque[i][2] += sum.torque;
-  }
+  if (law == cdem::Law::incremental)
+    pairs.en[k] = known ? known->en : 0;
 }
 
 // Energy and virial, with the branch vector from grain centre to grain centre.
@@ -394,11 +376,12 @@ void PairCDEM::tally() {
   pairs.for_each([this](int k, const cdem::Material &m) {
     if (!acts(k))
       return;
-    const int i = grain(pairs.a[k]), j = grain(pairs.b[k]);
+    const int i = rows.grain(pairs.a[k]), j = rows.grain(pairs.b[k]);
     const double *const xi = atom->x[i], *const xj = atom->x[j];
     const double energy = eflag_either ? spring_energy(k, m) : 0;
-    ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, energy, 0, pairs.force[k].fx, pairs.force[k].fy, 0,
-                 xi[0] - xj[0], xi[1] - xj[1], 0);
+    const cdem::Forces<double> on_a = slots.of_pair(pairs, k);
+    ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, energy, 0, on_a.fx, on_a.fy, 0, xi[0] - xj[0], xi[1] - xj[1],
+                 0);
   });
 }
 
@@ -408,10 +391,13 @@ double PairCDEM::overlap(int k) const {
 }
 
 // A pair across a border is on two ranks (or twice on one, if periodic): the owner of disc a counts it.
-bool PairCDEM::counts(int k) const { return grain(pairs.a[k]) < atom->nlocal; }
+bool PairCDEM::counts(int k) const { return rows.grain(pairs.a[k]) < atom->nlocal; }
 
 // Also in the step after it opened, in which its dashpot may have a share left.
-bool PairCDEM::acts(int k) const { return overlap(k) > 0 || pairs.force[k].fx != 0 || pairs.force[k].fy != 0; }
+bool PairCDEM::acts(int k) const {
+  const cdem::Forces<double> on_a = slots.of_pair(pairs, k);
+  return overlap(k) > 0 || on_a.fx != 0 || on_a.fy != 0;
+}
 
 double PairCDEM::spring_energy(int k, const cdem::Material &m) const {
   if (overlap(k) <= 0)
@@ -432,17 +418,17 @@ double PairCDEM::elastic_energy() const {
 PairCDEM::Contact PairCDEM::contact(int k, const cdem::Material &m) const {
   const int p = pairs.a[k], q = pairs.b[k];
   const double dx = rows[p].x - rows[q].x, dy = rows[p].y - rows[q].y, distance = std::hypot(dx, dy);
-  const double fx = pairs.force[k].fx, fy = pairs.force[k].fy;
+  const auto [fx, fy, torque_a, torque_b] = slots.of_pair(pairs, k);
   constexpr double ROUND_OFF = 1e-10;
 
   Contact c;
-  c.tag_a = atom->tag[grain(p)];
-  c.tag_b = atom->tag[grain(q)];
-  c.disc_a = disc(p);
-  c.disc_b = disc(q);
+  c.tag_a = atom->tag[rows.grain(p)];
+  c.tag_b = atom->tag[rows.grain(q)];
+  c.disc_a = rows.disc(p);
+  c.disc_b = rows.disc(q);
   c.nx = dx / distance;
   c.ny = dy / distance;
-  const double lever = 0.5 * (distance + pairs.radius_difference[k]);
+  const double lever = 0.5 * distance + pairs.half_difference[k];
   c.x = rows[p].x - lever * c.nx;
   c.y = rows[p].y - lever * c.ny;
   c.fn = fx * c.nx + fy * c.ny;
@@ -465,8 +451,8 @@ std::vector<PairCDEM::Contact> PairCDEM::contacts() const {
 
 std::vector<PairCDEM::DiscPlace> PairCDEM::discs() const {
   std::vector<DiscPlace> all;
-  for (int p = 0; p < rows_of(atom->nlocal); p++)
-    all.push_back({grain(p), disc(p), rows[p].x, rows[p].y, disc_radius(p)});
+  for (int p = 0; p < rows.rows_of(atom->nlocal); p++)
+    all.push_back({rows.grain(p), rows.disc(p), rows[p].x, rows[p].y, rows.radius(p)});
   return all;
 }
 
@@ -477,7 +463,7 @@ double PairCDEM::single(int i, int j, int itype, int jtype, double, double, doub
   if (i >= atom->nlocal)
     std::swap(i, j);
   auto add = [&](int k) {
-    const int p = pairs.a[k], q = pairs.b[k], other = grain(p) == i ? grain(q) : grain(p);
+    const int p = pairs.a[k], q = pairs.b[k], other = rows.grain(p) == i ? rows.grain(q) : rows.grain(p);
     if (atom->tag[other] != atom->tag[j] || !acts(k))
       return;
     const Contact c = contact(k, materials[itype][jtype]);
@@ -487,8 +473,8 @@ double PairCDEM::single(int i, int j, int itype, int jtype, double, double, doub
     svector[1] += c.ft;
     svector[2] += pairs.es[k];
   };
-  for (int p = rows_of(i); p < rows_of(i + 1); p++)
-    sums.for_each(p, add);
+  for (int p = rows.rows_of(i); p < rows.rows_of(i + 1); p++)
+    slots.for_each(p, add);
   return energy;
 }
 
@@ -498,15 +484,16 @@ void PairCDEM::store_history() {
   std::vector<int> count(atom->nlocal, 0);
   std::vector<std::pair<int, FixCDEMHistory::Contact>> by_grain;
   pairs.for_each([&](int k, const cdem::Material &) {
-    if (pairs.es[k] == 0 && pairs.en[k] == 0)
+    const double es = pairs.es[k], en = law == cdem::Law::incremental ? pairs.en[k] : 0;
+    if (es == 0 && en == 0)
       return;
     const int a = pairs.a[k], b = pairs.b[k];
     for (const auto &[own, other] : {std::pair{a, b}, std::pair{b, a}}) {
-      const int i = grain(own);
+      const int i = rows.grain(own);
       if (i >= atom->nlocal)
         continue;
       count[i]++;
-      by_grain.push_back({i, {atom->tag[grain(other)], disc(own), disc(other), pairs.es[k], pairs.en[k]}});
+      by_grain.push_back({i, {atom->tag[rows.grain(other)], rows.disc(own), rows.disc(other), es, en}});
     }
   });
   history->store(count, by_grain);
@@ -555,6 +542,4 @@ void PairCDEM::read_restart_settings(FILE *fp) {
   limit_damping = flags[1];
 }
 
-double PairCDEM::memory_usage() {
-  return Pair::memory_usage() + double(rows.capacity() * sizeof(rows[0])) + pairs.bytes() + sums.bytes();
-}
+double PairCDEM::memory_usage() { return Pair::memory_usage() + rows.bytes() + pairs.bytes() + slots.bytes(); }

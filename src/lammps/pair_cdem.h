@@ -17,8 +17,8 @@
 #pragma once
 
 #include "core/disc_pairs.h"
-#include "core/force_sums.h"
-#include "core/grain_shape.h"
+#include "core/force_kernel.h"
+#include "grain_rows.h"
 
 #include "pair.h"
 
@@ -57,6 +57,8 @@ public:
   void read_restart(FILE *) override;
   void write_restart_settings(FILE *) override;
   void read_restart_settings(FILE *) override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
   double memory_usage() override;
 
   const cdem::Material &material(int itype, int jtype) const { return materials[itype][jtype]; }
@@ -73,36 +75,36 @@ public:
   void store_history();   // from the list to the grains
   void release_history(); // the same, and the list is no longer the place where it is kept
 
+  // What a step consists of, for run style cdem, which steps the rows alone while nothing else asks for the atoms.
+  GrainRows rows;
+  void exchange_ghosts();                                           // the rows of ghosts, from their owners
+  void forces();                                                    // adds to f and torque of own grains
+  void forces_and_advance(const cdem::StepRule &, cdem::Fastest &); // and moves the rows of own grains instead
+  cdem::DiscForce force_on(int i); // sum over its pairs, for a grain that is not moved by them
+  // How far any point of a grain may still move before the list misses a pair (m); less than 0: it may miss one now.
+  double room() const;
+  double largest_reach() const;
+
 private:
   struct Candidate {
-    int a, b, material;
+    int a, b, segment;
   };
 
   void allocate();
   void check_setting() const;
-  void read_shapes();
 
-  // Rows are the discs of owned grains, then of ghosts. Where all grains are single discs, a row is an atom.
-  int rows_of(int natoms) const { return clumps ? first_row[natoms] : natoms; }
-  int grain(int row) const { return clumps ? grain_of_row[row] : row; }
-  int disc(int row) const { return clumps ? row - first_row[grain_of_row[row]] : 0; }
-  double disc_radius(int row) const;
   bool row_before(int, int) const;
-
-  void map_rows();
-  void fill_disc_rows(double forward);
-  void fill_clump_rows(double forward);
   bool turned_out_of_list() const;
 
   void build_list();
+  void divide_into_blocks();
   void find_candidates();
   void add_candidate(int row_i, int row_j);
-  void sort_by_material();
+  void sort_candidates();
   void set_constants(int k);
   void recall_history(int k);
 
-  void sum_disc_forces();
-  void sum_clump_forces();
+  void pair_forces(int block);
   void tally();
 
   double overlap(int k) const;
@@ -119,19 +121,20 @@ private:
   FixCDEMIntegrate *integrate = nullptr;
   FixCDEMHistory *history = nullptr;
 
-  bool clumps = false;                          // whether any type has more than one disc
-  std::vector<const cdem::GrainShape *> shapes; // by type
-  std::vector<int> first_row, grain_of_row;     // empty unless clumps
+  // Where a grain was when the list of grain pairs, or that of disc pairs, was built. The latter also ages when a grain
+  // turns; it can be rebuilt without any communication.
   struct Place {
-    double x, y, angle, arm; // arm: to the furthest disc centre
+    double x, y, angle;
+    double moved_and_turned(const cdem::Disc<double> &, double angle_now, double reach) const;
   };
-  std::vector<Place> built_at; // of the grains when the list was built, empty unless clumps
+  std::vector<Place> neighbours_built_at; // of own grains
+  std::vector<Place> discs_built_at;      // of all grains, empty unless clumps
 
-  cdem::Column<cdem::Disc<double>> rows;
+  std::vector<int> block_starts; // grains block_starts[k] ... block_starts[k+1]-1 are block k
   std::vector<Candidate> candidates;
   cdem::DiscPairs pairs;
-  cdem::ForceKernel kernel = nullptr;
-  cdem::ForceSums sums;
+  cdem::ForceSlots slots;
+  cdem::Kernels kernels{};
   bool history_in_list = false;
 };
 

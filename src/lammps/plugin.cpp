@@ -55,6 +55,8 @@ extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc) {
       plugin.creator.v1 = reinterpret_cast<lammpsplugin_factory1 *>(s.command);
     if (s.fix)
       plugin.creator.v2 = reinterpret_cast<lammpsplugin_factory2 *>(s.fix);
+    if (s.run)
+      plugin.creator.v2 = reinterpret_cast<lammpsplugin_factory2 *>(s.run);
     if (s.compute)
       plugin.creator.v2 = reinterpret_cast<lammpsplugin_factory2 *>(s.compute);
     reinterpret_cast<lammpsplugin_regfunc>(regfunc)(&plugin, lmp);

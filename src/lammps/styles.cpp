@@ -17,6 +17,7 @@
 #include "fix_cdem_trm.h"
 #include "pair.h"
 #include "pair_cdem.h"
+#include "verlet_cdem.h"
 
 using namespace LAMMPS_NS;
 
@@ -46,6 +47,12 @@ template <class T> Shearbox::Style command(const char *name) {
   return s;
 }
 
+template <class T> Shearbox::Style run(const char *name) {
+  Shearbox::Style s{"run", name};
+  s.run = [](LAMMPS *lmp, int narg, char **arg) -> Integrate * { return new T(lmp, narg, arg); };
+  return s;
+}
+
 } // namespace
 
 // To add a style: include its header above and name it here.
@@ -63,6 +70,7 @@ const std::vector<Shearbox::Style> &Shearbox::styles() {
       compute<ComputeCDEMEnergy>("cdem/energy"),
       compute<ComputeCDEMTRM>("cdem/trm"),
       command<CDEMCreate>("cdem/create"),
+      run<VerletCDEM>("verlet/cdem"),
   };
   return all;
 }

@@ -7,20 +7,22 @@ namespace LAMMPS_NS {
 class Command;
 class Compute;
 class Fix;
+class Integrate;
 class LAMMPS;
 class Pair;
 } // namespace LAMMPS_NS
 
 namespace Shearbox {
 
-// One style of the package: its kind ("pair", "fix", "compute", "command" as LAMMPS's plugin loader spells them), its
-// name in input files, and the creator that belongs to its kind; the others are null.
+// One style of the package: its kind ("pair", "fix", "compute", "command", "run" as LAMMPS's plugin loader spells
+// them), its name in input files, and the creator that belongs to its kind; the others are null.
 struct Style {
   const char *kind, *name;
   LAMMPS_NS::Pair *(*pair)(LAMMPS_NS::LAMMPS *) = nullptr;
   LAMMPS_NS::Fix *(*fix)(LAMMPS_NS::LAMMPS *, int, char **) = nullptr;
   LAMMPS_NS::Compute *(*compute)(LAMMPS_NS::LAMMPS *, int, char **) = nullptr;
   LAMMPS_NS::Command *(*command)(LAMMPS_NS::LAMMPS *) = nullptr;
+  LAMMPS_NS::Integrate *(*run)(LAMMPS_NS::LAMMPS *, int, char **) = nullptr;
 };
 
 const std::vector<Style> &styles();

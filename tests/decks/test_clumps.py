@@ -689,18 +689,21 @@ def test_rebuilds(tmp_path: Path, crowd_law: str, rebuild: str, skin: float, ref
 
 def test_a_turning_grain_finds_its_neighbours(tmp_path: Path, ranks: int) -> None:
     """A rod spins on the spot, so LAMMPS sees no reason to rebuild its list; within a quarter turn it hits two discs
-    that were further away than the skin, one of them a wall. The same bits as with a new list in every step."""
+    that were further away than the skin, one of them a wall. The same bits as with a new list in every step.
+    Run style verlet/cdem has LAMMPS rebuild its list, in time."""
     rod = Clump(*[(2 * R * k, 0, R) for k in range(4)])
     scene = [rod.at(0, 0, omega=500), SINGLE.at(0, 9e-3, type=3), Disc(-2e-3, -9e-3, 2 * R, type=2)]
     deck = begin(rod, SINGLE) + "timestep 1e-6\nneigh_modify delay 0 every 1 check ${check}\nrun 2150\n" + END
-    lazy, eager = (
-        run(deck, tmp_path / check, discs=scene, ranks=ranks, kn=1e6, ks=2.5e5, check=check) for check in ("yes", "no")
+    lazy, eager, gliding = (
+        run(deck, tmp_path / name, discs=scene, ranks=ranks, kn=1e6, ks=2.5e5, check=check, style=style)
+        for name, check, style in (("yes", "yes", "verlet"), ("no", "no", "verlet"), ("glide", "yes", "verlet/cdem"))
     )
     assert "Neighbor list builds = 0" in lazy.log and "Neighbor list builds = 2150" in eager.log
     assert lazy.end["omegaz"][0] < 300 and lazy.end["vx"][1] != 0 and lazy.end["vy"][0] > 0
-    assert same_bits(lazy.end, eager.end)
+    assert "Dangerous builds = 0" in gliding.log
+    assert same_bits(lazy.end, eager.end) and same_bits(lazy.end, gliding.end)
     if ranks > 1:
-        alone = run(deck, tmp_path / "alone", discs=scene, kn=1e6, ks=2.5e5, check="yes")
+        alone = run(deck, tmp_path / "alone", discs=scene, kn=1e6, ks=2.5e5, check="yes", style="verlet")
         assert same_bits(lazy.end, alone.end)
 
 

@@ -392,6 +392,7 @@ def test_computes_do_not_change_the_trajectory(tmp_path: Path, law: str, ranks: 
 # --- what is refused ------------------------------------------------------------------------------
 
 STOCK = """
+run_style verlet
 unfix move
 fix move all nve/sphere disc
 pair_style gran/hooke 1e6 NULL 0 NULL 0 0

@@ -43,6 +43,11 @@ def same(a: Run, b: Run) -> bool:
     return same_bits(a.end, b.end, COLUMNS) and last[0] == last[1]
 
 
+def builds(out: Run) -> int:
+    """Of the neighbour list, in the first run."""
+    return next(int(line.split("=")[1]) for line in out.log.splitlines() if line.startswith("Neighbor list builds"))
+
+
 def test_the_scene_is_worth_it(reference: Run) -> None:
     discs, _ = mini_box()
     end: Frame = reference.end
@@ -52,6 +57,24 @@ def test_the_scene_is_worth_it(reference: Run) -> None:
     assert np.count_nonzero((crossed[0] | crossed[1]) & free) >= 5
     assert np.abs(reference.thermo["f_floor[3]"][-1]) > 1  # N, with friction
     assert "Dangerous builds = 0" in reference.log
+
+
+def test_gravity_is_that_of_fix_gravity(tmp_path: Path, law: str, reference: Run) -> None:
+    assert same(reference, mini(tmp_path, law, gravity="stock"))
+
+
+def test_run_style_cdem(tmp_path: Path, law: str, ranks: int, reference: Run) -> None:
+    """Its steps are those of run_style verlet; the list is rebuilt at other steps."""
+    out = mini(tmp_path, law, ranks=ranks, style="verlet/cdem")
+    assert "Dangerous builds = 0" in out.log and "Run style verlet/cdem is no faster" not in out.log
+    assert builds(out) != builds(reference)
+    assert same(reference, out)
+
+
+@pytest.mark.parametrize(("written_by", "read_by"), [(1, 4), (2, 1)])
+def test_run_style_cdem_restarts(tmp_path: Path, law: str, written_by: int, read_by: int, reference: Run) -> None:
+    assert same(reference, mini(tmp_path, law, ranks=written_by, plan="write", style="verlet/cdem"))
+    assert same(reference, mini(tmp_path, law, ranks=read_by, plan="read", style="verlet/cdem"))
 
 
 @pytest.mark.parametrize("ranks", [2, 4])
@@ -83,13 +106,13 @@ def test_restart_in_mid_contact(tmp_path: Path, law: str, written_by: int, read_
 @pytest.mark.parametrize("rebuild", ["in-every-step", "never"])
 def test_neighbour_list(tmp_path: Path, law: str, ranks: int, rebuild: str, reference: Run) -> None:
     out = mini(tmp_path, law, ranks=ranks, **({"skin": 0.006} if rebuild == "never" else {"every": "yes"}))
-    builds = [int(line.split("=")[1]) for line in out.log.splitlines() if line.startswith("Neighbor list builds")]
-    assert builds[0] == (0 if rebuild == "never" else 5000)
+    assert builds(out) == (0 if rebuild == "never" else 5000)
     assert same(reference, out)
 
 
-def test_output_changes_nothing(tmp_path: Path, law: str, ranks: int, reference: Run) -> None:
+@pytest.mark.parametrize("style", ["verlet", "verlet/cdem"])
+def test_output_changes_nothing(tmp_path: Path, law: str, ranks: int, style: str, reference: Run) -> None:
     """single() by compute pair/local, energies and virials at odd steps leave the trajectory alone."""
-    out = mini(tmp_path, law, ranks=ranks, output="yes")
+    out = mini(tmp_path, law, ranks=ranks, output="yes", style=style)
     assert same_bits(reference.end, out.end, COLUMNS)
     assert np.count_nonzero(out.dump("pairs.dump")[-1]["c_p[3]"]) > 20

@@ -31,7 +31,7 @@ struct Scene {
 
   template <Law law = Law::direct, bool limit_damping = false>
   Forces<double> force(double dt = DT, const Material &m = steel) {
-    const Pair<double> pair{radius_a + radius_b, radius_a - radius_b, 2 * std::sqrt(MASS)};
+    const Pair<double> pair{radius_a + radius_b, 0.5 * (radius_a - radius_b), 2 * std::sqrt(MASS)};
     return contact_force<law, limit_damping, double>(relative(a, b), pair, m, dt, history);
   }
 };

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Grains of several discs: from the forces on the discs to that on the grain, and from the motion of the grain to those
+// of its discs. A grain of one disc is the case without an offset, to the same bits.
+#pragma once
+
+#include "disc_motion.h"
+#include "rotation.h"
+
+namespace cdem {
+
+// Of a disc's centre from that of its grain, at angle 0 (m).
+struct Offset {
+  double x, y;
+};
+
+// The discs of grain i are rows first_row[i] ... first_row[i+1]-1.
+struct ClumpColumns {
+  Disc<double> *grains;
+  Body *bodies;
+  const int *first_row;
+  Disc<double> *discs;
+  const Offset *offsets;
+  const Forces<double> *sums; // of the forces on each disc
+};
+
+// Force on a grain, and the torque about its centre.
+[[gnu::always_inline]] inline Four force_on(const ClumpColumns &c, int grain) {
+  const double gx = c.grains[grain].x, gy = c.grains[grain].y;
+  Four sum{};
+  for (int row = c.first_row[grain]; row < c.first_row[grain + 1]; row++) {
+    const Forces<double> &d = c.sums[row];
+    const double ox = c.discs[row].x - gx, oy = c.discs[row].y - gy;
+    sum += Four{d.fx, d.fy, d.torque_a + (ox * d.fy - oy * d.fx), 0};
+  }
+  return sum;
+}
+
+// A disc at offset o from the grain's centre moves with v + omega x o. Over the step it moved with the offset of the
+// half step, o - dt/2 omega x o, which adds dt/2 omega^2 o.
+[[gnu::always_inline]] inline void expand(const ClumpColumns &columns, int grain, const Rotation &turn,
+                                          double half_step) {
+  const Disc<double> g = columns.grains[grain];
+  const double inward = half_step * g.omega_half * g.omega_half;
+  for (int row = columns.first_row[grain]; row < columns.first_row[grain + 1]; row++) {
+    const Offset &o = columns.offsets[row];
+    const double ox = turn.cosine * o.x - turn.sine * o.y, oy = turn.sine * o.x + turn.cosine * o.y;
+    columns.discs[row] = {g.x + ox,
+                          g.y + oy,
+                          g.vx_half - g.omega_half * oy + inward * ox,
+                          g.vy_half + g.omega_half * ox + inward * oy,
+                          g.vx - g.omega * oy,
+                          g.vy + g.omega * ox,
+                          g.omega_half,
+                          g.omega};
+  }
+}
+
+// The discs of grains begin ... end-1; several angles are computed at a time.
+[[gnu::always_inline]] inline void expand(const ClumpColumns &columns, int begin, int end, double half_step) {
+  constexpr int CHUNK = 32;
+  double cosine[CHUNK], sine[CHUNK];
+  for (int first = begin; first < end; first += CHUNK) {
+    const int n = std::min(CHUNK, end - first);
+    for (int k = 0; k < n; k++) {
+      const Rotation turn = rotation(columns.bodies[first + k].angle);
+      cosine[k] = turn.cosine;
+      sine[k] = turn.sine;
+    }
+    for (int k = 0; k < n; k++)
+      expand(columns, first + k, {cosine[k], sine[k]}, half_step);
+  }
+}
+
+} // namespace cdem

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Velocity Verlet of a disc or a grain, on the row that the forces read: the second half of a step with the force that
+// has just been summed, then the first half of the next.
+#pragma once
+
+#include "contact_law.h"
+
+#include <algorithm>
+
+namespace cdem {
+
+// What the motion needs beside the row. A wall has inverse 0.
+struct alignas(4 * sizeof(double)) Body {
+  double angle, mass; // mass: that gravity and drag act on
+  double inverse_mass, inverse_inertia;
+};
+
+struct StepRule {
+  double dt;
+  double forward;        // by how far the dashpots' velocity is ahead of the half step's (s), see stability.h
+  double gx = 0, gy = 0; // gravity
+  double drag = 0;       // deceleration over velocity (1/s), that of the half step
+};
+
+struct DiscForce {
+  double fx, fy, torque;
+};
+
+// The largest squares of the components of the velocity, and of the spin.
+struct Fastest {
+  double vx2 = 0, vy2 = 0, omega2 = 0;
+
+  [[gnu::always_inline]] void see(const Four &squares) {
+    vx2 = std::max(vx2, squares[0]);
+    vy2 = std::max(vy2, squares[1]);
+    omega2 = std::max(omega2, squares[2]);
+  }
+  // No point within this distance of the centre of its grain moves faster.
+  double speed(double reach) const { return std::sqrt(vx2 + vy2) + reach * std::sqrt(omega2); }
+};
+
+// `sum` is fx, fy, torque, and a value without a use. body_forces: whether there are gravity and drag.
+template <bool body_forces>
+[[gnu::always_inline]] inline void advance(Disc<double> &disc, Body &body, Four sum, const StepRule &step, Four &fastest) {
+  const double half = 0.5 * step.dt;
+  const Four place = load_raw<Four>(&disc.x), motion = load_raw<Four>(&disc.vx), of_body = load_raw<Four>(&body.angle);
+
+  Four v = __builtin_shufflevector(place, motion, 2, 3, 6, 7); // the half step's vx, vy, omega, and one not used
+  if constexpr (body_forces)
+    sum += body.mass * (Four{step.gx, step.gy, 0, 0} - Four{step.drag, step.drag, 0, 0} * v);
+  const Four acceleration = sum * __builtin_shufflevector(of_body, of_body, 2, 2, 3, 3);
+  v += half * acceleration;
+  v += half * acceleration;
+  const Four x = __builtin_shufflevector(place, of_body, 0, 1, 4, 5) + step.dt * v;
+  const Four ahead = v + step.forward * acceleration;
+
+  store_raw(&disc.x, __builtin_shufflevector(x, v, 0, 1, 4, 5));
+  store_raw(&disc.vx, __builtin_shufflevector(ahead, v, 0, 1, 6, 2));
+  body.angle = x[2];
+  const Four squares = v * v;
+  fastest = fastest > squares ? fastest : squares;
+}
+
+} // namespace cdem

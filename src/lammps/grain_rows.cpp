@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "grain_rows.h"
+
+#include "fix_cdem_integrate.h"
+#include "fix_cdem_shape.h"
+
+#include "atom.h"
+#include "domain.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+using Disc = cdem::Disc<double>;
+
+void GrainRows::init(const FixCDEMIntegrate *fix, const cdem::Kernels &fastest) {
+  integrate = fix;
+  kernels = fastest;
+  shapes.assign(1, nullptr);
+  for (int type = 1; type <= atom->ntypes; type++)
+    shapes.push_back(&FixCDEMShape::shape(lmp, type));
+  clumps = std::any_of(shapes.begin() + 1, shapes.end(), [](const auto *s) { return s->discs().size() > 1; });
+}
+
+void GrainRows::map() {
+  const int nall = atom->nlocal + atom->nghost;
+  grains.resize(nall);
+  sums.resize(atom->nlocal);
+  if (!clumps)
+    return;
+  bodies.resize(nall);
+  first_row.resize(nall + 1);
+  grain_of_row.clear();
+  offsets.clear();
+  for (int i = 0; i < nall; i++) {
+    first_row[i] = int(grain_of_row.size());
+    for (const auto &disc : shapes[atom->type[i]]->discs()) {
+      grain_of_row.push_back(i);
+      offsets.push_back({atom->radius[i] * disc.x, atom->radius[i] * disc.y});
+    }
+  }
+  first_row[nall] = int(grain_of_row.size());
+  disc_rows.resize(grain_of_row.size());
+  sums.resize(first_row[atom->nlocal]);
+}
+
+double GrainRows::radius(int row) const {
+  const int i = grain(row);
+  return clumps ? atom->radius[i] * shapes[atom->type[i]]->discs()[disc(row)].r : atom->radius[i];
+}
+
+double GrainRows::reach(int i) const { return atom->radius[i] * shapes[atom->type[i]]->reach(); }
+
+void GrainRows::fill(int begin, int end, double forward) {
+  for (int i = begin; i < end; i++)
+    fill_grain(i, forward);
+  expand(begin, end);
+}
+
+// A state that is not known yet may be NaN; it is not asked for unless the velocity is carried forward.
+void GrainRows::fill_grain(int i, double forward) {
+  const double *const x = atom->x[i], *const v = atom->v[i], omega = atom->omega[i][2];
+  const double *const state = integrate->state[i];
+  Disc &row = grains[i];
+  row = {x[0], x[1], v[0], v[1], v[0], v[1], omega, omega};
+  if (forward != 0) {
+    row.vx += forward * state[FixCDEMIntegrate::AX];
+    row.vy += forward * state[FixCDEMIntegrate::AY];
+    row.omega += forward * state[FixCDEMIntegrate::ALPHA];
+  }
+  if (clumps)
+    bodies[i].angle = state[FixCDEMIntegrate::ANGLE];
+}
+
+int GrainRows::pack(int n, const int *list, double *buf, int pbc_flag, const int *pbc) const {
+  const double dx = pbc_flag ? pbc[0] * domain->xprd : 0, dy = pbc_flag ? pbc[1] * domain->yprd : 0;
+  const double *const begin = buf;
+  for (int k = 0; k < n; k++) {
+    std::copy_n(&grains[list[k]].x, sizeof(Disc) / sizeof(double), buf);
+    buf[0] += dx;
+    buf[1] += dy;
+    buf += sizeof(Disc) / sizeof(double);
+    if (clumps)
+      *buf++ = bodies[list[k]].angle;
+  }
+  return int(buf - begin);
+}
+
+void GrainRows::unpack(int n, int first, const double *buf) {
+  for (int i = first; i < first + n; i++) {
+    std::copy_n(buf, sizeof(Disc) / sizeof(double), &grains[i].x);
+    buf += sizeof(Disc) / sizeof(double);
+    if (clumps)
+      bodies[i].angle = *buf++;
+  }
+}
+
+cdem::ClumpColumns GrainRows::columns() {
+  return {grains.data(), bodies.data(), first_row.data(), disc_rows.data(), offsets.data(), sums.data()};
+}
+
+void GrainRows::expand_ghosts() { expand(atom->nlocal, atom->nlocal + atom->nghost); }
+
+void GrainRows::expand(int begin, int end) {
+  if (clumps)
+    kernels.expand(columns(), begin, end, update->setupflag ? 0 : 0.5 * update->dt);
+}
+
+void GrainRows::sum_block(const cdem::SlotBlock &block) { kernels.sum(block, sums.data()); }
+
+void GrainRows::sum_grain(const cdem::ForceSlots &slots, int i) {
+  for (int row = rows_of(i); row < rows_of(i + 1); row++)
+    cdem::store_raw(&sums[row].fx, slots.sum(row));
+}
+
+cdem::DiscForce GrainRows::force_on(int i) {
+  if (!clumps)
+    return {sums[i].fx, sums[i].fy, sums[i].torque_a};
+  const cdem::Four sum = cdem::force_on(columns(), i);
+  return {sum[0], sum[1], sum[2]};
+}
+
+void GrainRows::take_bodies() {
+  bodies.resize(grains.size());
+  for (int i = 0; i < atom->nlocal; i++) {
+    const auto [mass, inertia] = integrate->inverse(i);
+    const double free_mass = integrate->is_free(i) ? atom->rmass[i] : 0;
+    bodies[i] = {integrate->state[i][FixCDEMIntegrate::ANGLE], free_mass, mass, inertia};
+  }
+}
+
+void GrainRows::advance(const cdem::SlotBlock &block, int begin, int end, const cdem::StepRule &step,
+                        cdem::Fastest &fastest) {
+  const bool body_forces = integrate->has_body_forces();
+  if (!clumps) {
+    kernels.advance[body_forces](block, grains.data(), bodies.data(), step, fastest);
+    return;
+  }
+  sum_block(block);
+  kernels.advance_clumps[body_forces](columns(), begin, end, step, fastest);
+}
+
+void GrainRows::write_back() {
+  for (int i = 0; i < atom->nlocal; i++) {
+    const Disc &row = grains[i];
+    atom->x[i][0] = row.x;
+    atom->x[i][1] = row.y;
+    atom->v[i][0] = row.vx_half;
+    atom->v[i][1] = row.vy_half;
+    atom->omega[i][2] = row.omega_half;
+    integrate->state[i][FixCDEMIntegrate::ANGLE] = bodies[i].angle;
+  }
+}
+
+cdem::Fastest GrainRows::fastest() const {
+  cdem::Fastest fastest;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const Disc &row = grains[i];
+    fastest.see(cdem::Four{row.vx_half * row.vx_half, row.vy_half * row.vy_half, row.omega_half * row.omega_half, 0});
+  }
+  return fastest;
+}
+
+double GrainRows::bytes() const {
+  return double((grains.capacity() + disc_rows.capacity()) * sizeof(Disc) + bodies.capacity() * sizeof(cdem::Body) +
+                sums.capacity() * sizeof(sums[0]) + (first_row.capacity() + grain_of_row.capacity()) * sizeof(int) +
+                offsets.capacity() * sizeof(cdem::Offset));
+}

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The grains as the contact law reads them: a row for each grain, own ones and then ghosts, and where there are clumps a
+// row for each disc. Between two rebuilds of the neighbour list the rows can be stepped on their own (run_style verlet/cdem);
+// else they are filled from the atoms' arrays in every step.
+#pragma once
+
+#include "core/column.h"
+#include "core/disc_motion.h"
+#include "core/force_kernel.h"
+#include "core/grain_shape.h"
+
+#include "pointers.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class FixCDEMIntegrate;
+
+class GrainRows : protected Pointers {
+public:
+  static constexpr int COMM_SIZE = 9; // doubles that a ghost is sent: its row and its angle
+
+  explicit GrainRows(LAMMPS *lmp) : Pointers(lmp) {}
+
+  void init(const FixCDEMIntegrate *, const cdem::Kernels &);
+
+  // After a rebuild: finds a place for every grain and disc.
+  void map();
+
+  bool has_clumps() const { return clumps; }
+  // Rows are in the order of the atoms. Where all grains are single discs, a row is an atom.
+  int rows_of(int natoms) const { return clumps ? first_row[natoms] : natoms; }
+  int grain(int row) const { return clumps ? grain_of_row[row] : row; }
+  int disc(int row) const { return clumps ? row - first_row[grain_of_row[row]] : 0; }
+  double radius(int row) const;
+  double reach(int i) const; // from the grain's centre to that of its furthest disc
+  const cdem::Disc<double> *discs() const { return clumps ? disc_rows.data() : grains.data(); }
+  const cdem::Disc<double> &operator[](int row) const { return discs()[row]; }
+  const cdem::Disc<double> &of_grain(int i) const { return grains[i]; }
+  double angle(int i) const { return bodies[i].angle; } // of clumps
+
+  // Own grains begin ... end-1 from the atoms' arrays, with the dashpots' velocity carried forward (s). Ghosts are
+  // received, and then expanded to their discs.
+  void fill(int begin, int end, double forward);
+  int pack(int n, const int *list, double *buf, int pbc_flag, const int *pbc) const;
+  void unpack(int n, int first, const double *buf);
+  void expand_ghosts();
+
+  // Sums the forces of the discs of a block, or of those of one grain, to the same bits; then force_on() knows the force
+  // on the grain and the torque about its centre.
+  void sum_block(const cdem::SlotBlock &);
+  void sum_grain(const cdem::ForceSlots &, int i);
+  cdem::DiscForce force_on(int i);
+
+  // For steps on the rows alone: takes angle and mass of own grains; sums the forces on grains begin ... end-1, those of
+  // a block, and steps them; gives back where they are, with the velocities of the half step.
+  void take_bodies();
+  void advance(const cdem::SlotBlock &, int begin, int end, const cdem::StepRule &, cdem::Fastest &);
+  void write_back();
+  cdem::Fastest fastest() const;
+
+  double bytes() const;
+
+private:
+  void fill_grain(int i, double forward);
+  void expand(int begin, int end);
+  cdem::ClumpColumns columns();
+
+  const FixCDEMIntegrate *integrate = nullptr;
+  cdem::Kernels kernels{};
+  bool clumps = false;                          // whether any type has more than one disc
+  std::vector<const cdem::GrainShape *> shapes; // by type
+  std::vector<int> first_row, grain_of_row;     // empty unless clumps
+
+  cdem::Column<cdem::Disc<double>> grains, disc_rows;
+  cdem::Column<cdem::Body> bodies; // of grains
+  cdem::Column<cdem::Offset> offsets; // of discs
+  cdem::Column<cdem::Forces<double>> sums; // of own discs
+};
+
+} // namespace LAMMPS_NS

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "verlet_cdem.h"
+
+#include "fix_cdem_integrate.h"
+#include "fix_cdem_lid.h"
+#include "fix_cdem_trm.h"
+#include "pair_cdem.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "force.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "output.h"
+#include "timer.h"
+#include "update.h"
+#include "utils.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+
+void VerletCDEM::init() {
+  Verlet::init();
+  pair = dynamic_cast<PairCDEM *>(force->pair);
+  integrate = FixCDEMIntegrate::find(lmp);
+  if (!pair || !integrate)
+    error->all(FLERR, "Run style verlet/cdem needs pair_style cdem and fix cdem/integrate");
+  statistics.clear();
+  wall_bodies.clear();
+  for (int i = 0; i < modify->nfix; i++) {
+    if (auto *fix = dynamic_cast<FixCDEMTRM *>(modify->fix[i]))
+      statistics.push_back(fix);
+    if (auto *fix = dynamic_cast<WallBody *>(modify->fix[i]))
+      wall_bodies.push_back(fix);
+  }
+
+  const std::string why = hindrance();
+  can_glide = why.empty();
+  if (!can_glide && comm->me == 0)
+    error->warning(FLERR, "Run style verlet/cdem is no faster than verlet here: " + why);
+}
+
+std::string VerletCDEM::hindrance() const {
+  if (force->bond || force->angle || force->dihedral || force->improper || force->kspace)
+    return "there are forces beside those of pair style cdem";
+  for (int i = 0; i < modify->nfix; i++)
+    if (acts_in_every_step(i))
+      return std::string("fix ") + modify->fix[i]->id + " of style " + modify->fix[i]->style +
+             " acts in every step (for gravity and drag, fix cdem/integrate has keywords)";
+  return "";
+}
+
+bool VerletCDEM::acts_in_every_step(int ifix) const {
+  const Fix *const fix = modify->fix[ifix];
+  if (const auto *lid = dynamic_cast<const FixCDEMLid *>(fix))
+    return lid->has_variable();
+  if (utils::strmatch(fix->style, "^cdem/"))
+    return false;
+  constexpr int WITHIN = FixConst::INITIAL_INTEGRATE | FixConst::POST_INTEGRATE | FixConst::PRE_FORCE |
+                         FixConst::PRE_REVERSE | FixConst::POST_FORCE | FixConst::FINAL_INTEGRATE;
+  const int mask = modify->fmask[ifix];
+  return (mask & WITHIN) || ((mask & FixConst::END_OF_STEP) && fix->nevery == 1);
+}
+
+// The next step that Verlet has to do.
+bigint VerletCDEM::next_full_step() const {
+  const bigint now = update->ntimestep;
+  bigint next = std::min(update->laststep, output->next);
+  for (int i = 0; i < modify->nfix; i++) {
+    const Fix *const fix = modify->fix[i];
+    if ((modify->fmask[i] & FixConst::END_OF_STEP) && fix->nevery > 0)
+      next = std::min(next, (now / fix->nevery + 1) * fix->nevery);
+    if (fix->force_reneighbor && fix->next_reneighbor > now)
+      next = std::min(next, fix->next_reneighbor);
+  }
+  if (!neighbor->dist_check) { // the step at which neigh_modify has the list rebuilt
+    const int least = std::max(neighbor->ago + 1, neighbor->delay);
+    next = std::min(next, now + (least + neighbor->every - 1) / neighbor->every * neighbor->every - neighbor->ago);
+  }
+  return next;
+}
+
+void VerletCDEM::run(int n) {
+  run_start = update->ntimestep;
+  const bigint last = run_start + n;
+  while (update->ntimestep < last) {
+    if (can_glide)
+      glide(std::min(last, next_full_step()) - 1);
+    if (timer->check_timeout(int(update->ntimestep - run_start))) {
+      update->nsteps = int(update->ntimestep - run_start);
+      break;
+    }
+    Verlet::run(1);
+  }
+}
+
+// Steps until `target`, or until the neighbour list has to be rebuilt.
+void VerletCDEM::glide(bigint target) {
+  timer->stamp();
+  reach = pair->largest_reach();
+  measure_room();
+  travelled = 0;
+  if (!rebuild_is_due(0, pair->rows.fastest()) && update->ntimestep < target)
+    glide_on(target);
+  timer->stamp(Timer::PAIR);
+}
+
+void VerletCDEM::glide_on(bigint target) {
+  begin_step();
+  cdem::Fastest fastest = pair->rows.fastest();
+  for (;;) {
+    pair->exchange_ghosts();
+    if (rebuild_is_due(1, fastest) || update->ntimestep == target ||
+        timer->check_timeout(int(update->ntimestep - run_start)))
+      break;
+    fastest = {};
+    pair->forces_and_advance(rule, fastest);
+    move_walls();
+    for (FixCDEMTRM *fix : statistics)
+      fix->add(pair->rows);
+  }
+  pair->rows.write_back();
+  force_clear();
+  pair->forces();
+  integrate->post_force(0);
+  modify->final_integrate();
+}
+
+// As Verlet does it, on the atoms' arrays.
+void VerletCDEM::begin_step() {
+  update->ntimestep++;
+  neighbor->ago++;
+  modify->initial_integrate(0);
+  if (modify->n_post_integrate)
+    modify->post_integrate();
+
+  rule = integrate->step_rule();
+  pair->rows.take_bodies();
+  pair->rows.fill(0, atom->nlocal, rule.forward);
+  walls.clear();
+  for (int i = 0; i < atom->nlocal; i++)
+    if (!integrate->is_free(i))
+      walls.push_back(i);
+}
+
+// The second half of a step and the first of the next, by the fixes that move them.
+void VerletCDEM::move_walls() {
+  for (int i : walls) {
+    const auto [fx, fy, torque] = pair->force_on(i);
+    atom->f[i][0] = fx;
+    atom->f[i][1] = fy;
+  }
+  for (WallBody *fix : wall_bodies)
+    fix->final_integrate();
+  update->ntimestep++;
+  neighbor->ago++;
+  for (WallBody *fix : wall_bodies)
+    fix->initial_integrate(0);
+  for (int i : walls)
+    pair->rows.fill(i, i + 1, rule.forward);
+}
+
+void VerletCDEM::measure_room() {
+  const double mine = pair->room();
+  MPI_Allreduce(&mine, &room, 1, MPI_DOUBLE, MPI_MIN, world);
+}
+
+// The list is good for the next step as long as the room left in it is more than SAFETY times what the fastest moved in
+// the last one; and it is not worth keeping for LEAST of half the skin. What all have travelled is at most what the
+// fastest has in every step, so only when that bound is used up is the room measured. That changes nothing: the list is
+// rebuilt in the same step for any number of ranks, and whatever is written in between.
+bool VerletCDEM::rebuild_is_due(int steps, const cdem::Fastest &fastest) {
+  constexpr double SAFETY = 4, LEAST = 0.05;
+  const double mine = update->dt * fastest.speed(reach);
+  double step;
+  MPI_Allreduce(&mine, &step, 1, MPI_DOUBLE, MPI_MAX, world);
+  travelled += steps * step;
+  const double needed = std::max(SAFETY * step, LEAST * 0.5 * neighbor->skin);
+  if (travelled + needed < room)
+    return false;
+  measure_room();
+  travelled = 0;
+  if (needed < room)
+    return false;
+  if (room < 0)
+    neighbor->ndanger++;
+  integrate->rebuild_next();
+  return true;
+}
