@@ -85,15 +85,21 @@ bigint VerletCDEM::next_full_step() const {
 void VerletCDEM::run(int n) {
   run_start = update->ntimestep;
   const bigint last = run_start + n;
-  while (update->ntimestep < last) {
+  while (update->ntimestep < last && !stopped()) {
     if (can_glide)
       glide(std::min(last, next_full_step()) - 1);
-    if (timer->check_timeout(int(update->ntimestep - run_start))) {
-      update->nsteps = int(update->ntimestep - run_start);
-      break;
-    }
-    Verlet::run(1);
+    if (!stopped())
+      Verlet::run(1);
   }
+}
+
+// By timer timeout, or by fix halt.
+bool VerletCDEM::stopped() {
+  const int done = int(update->ntimestep - run_start);
+  if (!timer->check_timeout(done))
+    return false;
+  update->nsteps = done;
+  return true;
 }
 
 // Steps until `target`, or until the neighbour list has to be rebuilt.
@@ -112,8 +118,7 @@ void VerletCDEM::glide_on(bigint target) {
   cdem::Fastest fastest = pair->rows.fastest();
   for (;;) {
     pair->exchange_ghosts();
-    if (rebuild_is_due(1, fastest) || update->ntimestep == target ||
-        timer->check_timeout(int(update->ntimestep - run_start)))
+    if (rebuild_is_due(1, fastest) || update->ntimestep == target || stopped())
       break;
     fastest = {};
     pair->forces_and_advance(rule, fastest);

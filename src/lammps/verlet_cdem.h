@@ -40,6 +40,7 @@ private:
   bool acts_in_every_step(int ifix) const;
   bigint next_full_step() const;
 
+  bool stopped();
   void glide(bigint target);
   void glide_on(bigint target);
   void begin_step();
