@@ -41,7 +41,8 @@ struct Fastest {
 
 // `sum` is fx, fy, torque, and a value without a use. body_forces: whether there are gravity and drag.
 template <bool body_forces>
-[[gnu::always_inline]] inline void advance(Disc<double> &disc, Body &body, Four sum, const StepRule &step, Four &fastest) {
+[[gnu::always_inline]] inline void advance(Disc<double> &disc, Body &body, Four sum, const StepRule &step,
+                                           Four &fastest) {
   const double half = 0.5 * step.dt;
   const Four place = load_raw<Four>(&disc.x), motion = load_raw<Four>(&disc.vx), of_body = load_raw<Four>(&body.angle);
 

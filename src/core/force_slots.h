@@ -68,7 +68,8 @@ template <class Visit> [[gnu::always_inline]] inline void for_each_sum(const Slo
 
 class ForceSlots {
 public:
-  // Rows starts[k] ... starts[k+1]-1 are block k. before(p, q) orders the pairs of a disc by the disc on the other side.
+  // Rows starts[k] ... starts[k+1]-1 are block k. before(p, q) orders the pairs of a disc by the disc on the other
+  // side.
   template <class Before> void build(DiscPairs &pairs, const std::vector<int> &starts, Before before) {
     const int n = starts.back(), total = sort_by_count(pairs, starts);
     pair_of_slot.resize(total);

@@ -14,7 +14,8 @@ struct Rotation {
 
 // The angle is taken to within a quarter of pi of a multiple of pi/2, that multiple in three parts of which the first
 // two have trailing zeros enough for an exact product; there the series of both functions are summed until the next
-// term is below the last bit. The multiple's last two bits, as they stand in the sum with 1.5 * 2^52, tell the quadrant.
+// term is below the last bit. The multiple's last two bits, as they stand in the sum with 1.5 * 2^52, tell the
+// quadrant.
 [[gnu::always_inline]] inline Rotation rotation(double angle) {
   constexpr double TWO_OVER_PI = 0x1.45f306dc9c883p-1, ROUND = 0x1.8p52;
   constexpr double FIRST = 0x1.921fb544p+0, SECOND = 0x1.0b4611a6p-34, THIRD = 0x1.3198a2e037073p-69; // of pi/2

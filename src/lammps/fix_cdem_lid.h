@@ -32,6 +32,8 @@ public:
   void initial_integrate(int) override;
   void final_integrate() override;
   double compute_vector(int) override;
+  bool follows_forces() const override { return true; }
+  bool moves() const override { return true; }
   bool has_variable() const { return !stress_variable.empty(); }
   void write_restart(FILE *) override;
   void restart(char *) override;

@@ -30,6 +30,8 @@ public:
   void final_integrate() override;
   void reset_dt() override;
   double compute_vector(int) override;
+  bool follows_forces() const override { return false; }
+  bool moves() const override { return speed != 0; }
   void write_restart(FILE *) override;
   void restart(char *) override;
 

@@ -33,22 +33,32 @@ int FixCDEMTRM::setmask() { return FixConst::POST_INTEGRATE; }
 
 // Here v and omega are those of the half step, with which the step was made: dx = dt v and d theta = dt omega, without
 // differences of positions, which periodic boundaries and migration would break.
+template <class Motion> void FixCDEMTRM::add_step(Motion motion) {
+  const double dt = update->dt, *const radius = atom->radius;
+  const int n = atom->nlocal, *const mask = atom->mask, bit = groupbit;
+  Sums *const sum = sums.data();
+  for (int i = 0; i < n; i++) {
+    if (!(mask[i] & bit))
+      continue;
+    const auto [vx, vy, omega] = motion(i);
+    sum[i].rolled += radius[i] * std::fabs(dt * omega);
+    sum[i].path += dt * std::sqrt(vx * vx + vy * vy);
+  }
+}
+
+namespace {
+struct Velocity {
+  double vx, vy, omega;
+};
+} // namespace
+
 void FixCDEMTRM::post_integrate() {
-  for (int i = 0; i < atom->nlocal; i++)
-    add(i, atom->v[i][0], atom->v[i][1], atom->omega[i][2]);
+  add_step([this](int i) { return Velocity{atom->v[i][0], atom->v[i][1], atom->omega[i][2]}; });
 }
 
 void FixCDEMTRM::add(const GrainRows &rows) {
-  for (int i = 0; i < atom->nlocal; i++)
-    add(i, rows.of_grain(i).vx_half, rows.of_grain(i).vy_half, rows.of_grain(i).omega_half);
-}
-
-void FixCDEMTRM::add(int i, double vx, double vy, double omega) {
-  if (!(atom->mask[i] & groupbit))
-    return;
-  const double dt = update->dt;
-  sums[i].rolled += atom->radius[i] * std::fabs(dt * omega);
-  sums[i].path += dt * std::sqrt(vx * vx + vy * vy);
+  const cdem::Disc<double> *const grain = &rows.of_grain(0);
+  add_step([=](int i) { return Velocity{grain[i].vx_half, grain[i].vy_half, grain[i].omega_half}; });
 }
 
 double FixCDEMTRM::memory_usage() { return static_cast<double>(sums.capacity() * sizeof(Sums)); }

@@ -40,7 +40,7 @@ public:
   int maxsize_restart() override;
 
 private:
-  void add(int i, double vx, double vy, double omega);
+  template <class Motion> void add_step(Motion);
 
   std::vector<Sums> sums; // per atom
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The grains as the contact law reads them: a row for each grain, own ones and then ghosts, and where there are clumps a
-// row for each disc. Between two rebuilds of the neighbour list the rows can be stepped on their own (run_style verlet/cdem);
-// else they are filled from the atoms' arrays in every step.
+// The grains as the contact law reads them: a row for each grain, own ones and then ghosts, and where there are clumps
+// a row for each disc. Between two rebuilds of the neighbour list the rows can be stepped on their own (run_style
+// verlet/cdem); else they are filled from the atoms' arrays in every step.
 #pragma once
 
 #include "core/column.h"
@@ -47,14 +47,14 @@ public:
   void unpack(int n, int first, const double *buf);
   void expand_ghosts();
 
-  // Sums the forces of the discs of a block, or of those of one grain, to the same bits; then force_on() knows the force
-  // on the grain and the torque about its centre.
+  // Sums the forces of the discs of a block, or of those of one grain, to the same bits; then force_on() knows the
+  // force on the grain and the torque about its centre.
   void sum_block(const cdem::SlotBlock &);
   void sum_grain(const cdem::ForceSlots &, int i);
   cdem::DiscForce force_on(int i);
 
-  // For steps on the rows alone: takes angle and mass of own grains; sums the forces on grains begin ... end-1, those of
-  // a block, and steps them; gives back where they are, with the velocities of the half step.
+  // For steps on the rows alone: takes angle and mass of own grains; sums the forces on grains begin ... end-1, those
+  // of a block, and steps them; gives back where they are, with the velocities of the half step.
   void take_bodies();
   void advance(const cdem::SlotBlock &, int begin, int end, const cdem::StepRule &, cdem::Fastest &);
   void write_back();
@@ -74,8 +74,8 @@ private:
   std::vector<int> first_row, grain_of_row;     // empty unless clumps
 
   cdem::Column<cdem::Disc<double>> grains, disc_rows;
-  cdem::Column<cdem::Body> bodies; // of grains
-  cdem::Column<cdem::Offset> offsets; // of discs
+  cdem::Column<cdem::Body> bodies;         // of grains
+  cdem::Column<cdem::Offset> offsets;      // of discs
   cdem::Column<cdem::Forces<double>> sums; // of own discs
 };
 

@@ -21,12 +21,17 @@
 
 using namespace LAMMPS_NS;
 
+VerletCDEM::VerletCDEM(LAMMPS *lmp, int narg, char **arg) : Verlet(lmp, narg, arg) {
+  if (narg > 0)
+    error->all(FLERR, "Run style verlet/cdem: unknown argument {}; it takes none", arg[0]);
+}
+
 void VerletCDEM::init() {
   Verlet::init();
   pair = dynamic_cast<PairCDEM *>(force->pair);
   integrate = FixCDEMIntegrate::find(lmp);
-  if (!pair || !integrate)
-    error->all(FLERR, "Run style verlet/cdem needs pair_style cdem and fix cdem/integrate");
+  if (!pair)
+    error->all(FLERR, "Run style verlet/cdem needs pair_style cdem");
   statistics.clear();
   wall_bodies.clear();
   for (int i = 0; i < modify->nfix; i++) {
@@ -43,6 +48,8 @@ void VerletCDEM::init() {
 }
 
 std::string VerletCDEM::hindrance() const {
+  if (!integrate)
+    return "there is no fix cdem/integrate";
   if (force->bond || force->angle || force->dihedral || force->improper || force->kspace)
     return "there are forces beside those of pair style cdem";
   for (int i = 0; i < modify->nfix; i++)
@@ -114,6 +121,7 @@ void VerletCDEM::glide(bigint target) {
 }
 
 void VerletCDEM::glide_on(bigint target) {
+  find_walls();
   begin_step();
   cdem::Fastest fastest = pair->rows.fastest();
   for (;;) {
@@ -144,15 +152,28 @@ void VerletCDEM::begin_step() {
   rule = integrate->step_rule();
   pair->rows.take_bodies();
   pair->rows.fill(0, atom->nlocal, rule.forward);
-  walls.clear();
-  for (int i = 0; i < atom->nlocal; i++)
-    if (!integrate->is_free(i))
-      walls.push_back(i);
+}
+
+// A wall that has a velocity but no fix to move it stays where it is.
+void VerletCDEM::find_walls() {
+  felt.clear();
+  moving.clear();
+  for (const WallBody *fix : wall_bodies)
+    if (fix->follows_forces())
+      felt.insert(felt.end(), fix->own_discs().begin(), fix->own_discs().end());
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double *const v = atom->v[i];
+    const bool at_rest = v[0] == 0 && v[1] == 0 && atom->omega[i][2] == 0;
+    const bool moved = std::any_of(wall_bodies.begin(), wall_bodies.end(),
+                                   [=](const WallBody *fix) { return fix->moves() && fix->in_group(i); });
+    if (!integrate->is_free(i) && (moved || !at_rest))
+      moving.push_back(i);
+  }
 }
 
 // The second half of a step and the first of the next, by the fixes that move them.
 void VerletCDEM::move_walls() {
-  for (int i : walls) {
+  for (int i : felt) {
     const auto [fx, fy, torque] = pair->force_on(i);
     atom->f[i][0] = fx;
     atom->f[i][1] = fy;
@@ -163,7 +184,7 @@ void VerletCDEM::move_walls() {
   neighbor->ago++;
   for (WallBody *fix : wall_bodies)
     fix->initial_integrate(0);
-  for (int i : walls)
+  for (int i : moving)
     pair->rows.fill(i, i + 1, rule.forward);
 }
 

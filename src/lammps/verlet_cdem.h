@@ -30,7 +30,7 @@ class WallBody;
 
 class VerletCDEM : public Verlet {
 public:
-  using Verlet::Verlet;
+  VerletCDEM(LAMMPS *, int, char **);
 
   void init() override;
   void run(int) override;
@@ -43,6 +43,7 @@ private:
   bool stopped();
   void glide(bigint target);
   void glide_on(bigint target);
+  void find_walls();
   void begin_step();
   void move_walls();
   void measure_room();
@@ -52,7 +53,7 @@ private:
   FixCDEMIntegrate *integrate = nullptr;
   std::vector<WallBody *> wall_bodies;
   std::vector<FixCDEMTRM *> statistics;
-  std::vector<int> walls; // own atoms that fix cdem/integrate does not move
+  std::vector<int> felt, moving; // own wall discs whose forces matter in every step, and those that may move
 
   bool can_glide = false;
   bigint run_start = 0;

@@ -22,6 +22,12 @@ public:
   void setup_pre_neighbor() override;
   void pre_neighbor() override;
 
+  const std::vector<int> &own_discs() const { return discs; }
+  virtual bool follows_forces() const = 0; // whether it needs the forces in every step
+  virtual bool moves() const = 0;
+
+  bool in_group(int i) const;
+
 protected:
   struct Vector {
     double x, y;
@@ -41,8 +47,6 @@ protected:
   void set_motion(Vector velocity, Vector acceleration);
   // One step's displacement, made at the given mean velocity.
   void shift(Vector displacement, Vector velocity);
-
-  bool in_group(int i) const;
 
 private:
   template <class Term> double sum(Term term) const;
