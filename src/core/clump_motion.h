@@ -20,7 +20,8 @@ struct ClumpColumns {
   const int *first_row;
   Disc<double> *discs;
   const Offset *offsets;
-  const Forces<double> *sums; // of the forces on each disc
+  const Forces<double> *sums; // of the forces on disc `first_summed` and those after it
+  int first_summed;
 };
 
 // Force on a grain, and the torque about its centre.
@@ -28,7 +29,7 @@ struct ClumpColumns {
   const double gx = c.grains[grain].x, gy = c.grains[grain].y;
   Four sum{};
   for (int row = c.first_row[grain]; row < c.first_row[grain + 1]; row++) {
-    const Forces<double> &d = c.sums[row];
+    const Forces<double> &d = c.sums[row - c.first_summed];
     const double ox = c.discs[row].x - gx, oy = c.discs[row].y - gy;
     sum += Four{d.fx, d.fy, d.torque_a + (ox * d.fy - oy * d.fx), 0};
   }

@@ -35,7 +35,8 @@ struct DiscPairs {
   Column<int> a, b;           // rows of the two discs; a belongs to the grain of the lower id
   Column<int> slot_a, slot_b; // where their forces go, see force_slots.h
   Column<double> radius_sum, half_difference, root_mass;
-  Column<double> es, en; // en: of the incremental law only
+  Column<double> es, en;        // en: of the incremental law only
+  Column<Forces<double>> force; // of the last step that was kept, see ForceSlots::of_pair
 
   // Makes room for segments of these sizes, by block and material, all entries zero.
   void lay_out(const std::vector<Material> &materials, const std::vector<int> &sizes, Law law) {
@@ -55,6 +56,7 @@ struct DiscPairs {
     for (auto *column : {&radius_sum, &half_difference, &root_mass, &es})
       column->reset(next);
     en.reset(law == Law::incremental ? next : 0);
+    force.reset(next);
   }
 
   // Calls visit(k, material) for every pair.
@@ -71,7 +73,7 @@ struct DiscPairs {
 
   double bytes() const {
     return double(a.capacity()) * 4 * sizeof(int) + double(es.capacity()) * 4 * sizeof(double) +
-           double(en.capacity()) * sizeof(double);
+           double(en.capacity()) * sizeof(double) + double(force.capacity()) * sizeof(Forces<double>);
   }
 };
 

@@ -13,8 +13,8 @@ namespace cdem {
 struct Kernels {
   // The forces of pairs begin ... end-1, all of one material, begin a multiple of DiscPairs::LANES.
   void (*forces)(const Disc<double> *discs, const PairColumns &, const Material &, int begin, int end, double dt);
-  // Sums the forces of a block's discs.
-  void (*sum)(const SlotBlock &, Forces<double> *sums);
+  // Sums the forces of a block's discs, to sums[disc - first].
+  void (*sum)(const SlotBlock &, Forces<double> *sums, int first);
   // Places the discs of grains begin ... end-1; half_step as in clump_motion.h.
   void (*expand)(const ClumpColumns &, int begin, int end, double half_step);
   // Moves such grains by a step, once the forces on their discs are summed: without and with gravity and drag.

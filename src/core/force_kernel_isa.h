@@ -35,8 +35,8 @@ void forces(const Disc<double> *discs, const PairColumns &columns, const Materia
   }
 }
 
-void sum(const SlotBlock &block, Forces<double> *sums) {
-  for_each_sum(block, [=](int disc, Four sum) { store_raw(&sums[disc].fx, sum); });
+void sum(const SlotBlock &block, Forces<double> *sums, int first) {
+  for_each_sum(block, [=](int disc, Four sum) { store_raw(&sums[disc - first].fx, sum); });
 }
 
 template <bool body_forces>

@@ -71,98 +71,144 @@ public:
   // Rows starts[k] ... starts[k+1]-1 are block k. before(p, q) orders the pairs of a disc by the disc on the other
   // side.
   template <class Before> void build(DiscPairs &pairs, const std::vector<int> &starts, Before before) {
-    const int n = starts.back(), total = sort_by_count(pairs, starts);
+    const int n = starts.back();
+    count_slots(pairs, n);
+    sort_by_count(starts);
+    assign_slots(pairs, starts);
     pair_of_slot.resize(total);
-    slots.reset(total + 1);
-    std::vector<int> next = first;
+    std::vector<int> next = first_pair;
     pairs.for_each([&](int k, const Material &) {
       for (int row : {pairs.a[k], pairs.b[k]})
         if (row < n)
           pair_of_slot[next[row]++] = k;
     });
-    std::fill(pairs.slot_a.begin(), pairs.slot_a.end(), total);
-    std::fill(pairs.slot_b.begin(), pairs.slot_b.end(), total);
+    std::fill(pairs.slot_a.begin(), pairs.slot_a.end(), unsummed());
+    std::fill(pairs.slot_b.begin(), pairs.slot_b.end(), unsummed());
     for (int row = 0; row < n; row++) {
       auto partner = [&](int k) { return pairs.a[k] == row ? pairs.b[k] : pairs.a[k]; };
-      std::sort(pair_of_slot.begin() + first[row], pair_of_slot.begin() + next[row],
-                [&](int k, int l) { return before(partner(k), partner(l)); });
-      for (int s = first[row]; s < next[row]; s++)
-        (pairs.a[pair_of_slot[s]] == row ? pairs.slot_a : pairs.slot_b)[pair_of_slot[s]] = s;
+      const auto begin = pair_of_slot.begin() + first_pair[row], end = begin + counts[row];
+      std::sort(begin, end, [&](int k, int l) { return before(partner(k), partner(l)); });
+      for (int s = 0; s < counts[row]; s++)
+        (pairs.a[begin[s]] == row ? pairs.slot_a : pairs.slot_b)[begin[s]] = first_slot[row] + s;
     }
+  }
+
+  // Calls visit(k) for every pair k of a disc.
+  template <class Visit> void for_each(int row, Visit visit) const {
+    const auto begin = pair_of_slot.begin() + first_pair[row];
+    std::for_each(begin, begin + counts[row], visit);
+  }
+
+  // The sum of one disc, to the bits of for_each_sum, as long as its block is the last one that was computed.
+  Four sum(int row) const {
+    Four sum{};
+    for (int s = first_slot[row]; s < first_slot[row] + counts[row]; s++)
+      sum += load_raw<Four>(&slots[s].fx);
+    return sum;
+  }
+
+  // The force on disc a of pair k, as long as the block of that pair is the last one that was computed.
+  Forces<double> of_pair(const DiscPairs &pairs, int k) const {
+    return pairs.slot_a[k] != unsummed() ? slots[pairs.slot_a[k]] : opposite(slots[pairs.slot_b[k]]);
   }
 
   int blocks() const { return int(first_run.size()) - 1; }
   SlotBlock block(int k) const {
     const SlotRun *const run = runs.data();
-    return {&slots[first_slot[k]], order.data(), run + first_run[k], run + first_run[k + 1]};
+    return {&slots[block_slot[k]], order.data(), run + first_run[k], run + first_run[k + 1]};
   }
-
-  // Calls visit(k) for every pair k of a disc.
-  template <class Visit> void for_each(int row, Visit visit) const {
-    const auto begin = pair_of_slot.begin() + first[row];
-    std::for_each(begin, begin + counts[row], visit);
-  }
-
-  // The sum of one disc, to the bits of for_each_sum.
-  Four sum(int row) const {
-    Four sum{};
-    for (int s = first[row]; s < first[row] + counts[row]; s++)
-      sum += load_raw<Four>(&slots[s].fx);
-    return sum;
-  }
-
-  // The force on disc a of pair k.
-  Forces<double> of_pair(const DiscPairs &pairs, int k) const {
-    const bool of_a = pairs.slot_a[k] != int(slots.size()) - 1; // the row of a is summed here
-    return of_a ? slots[pairs.slot_a[k]] : opposite(slots[pairs.slot_b[k]]);
-  }
+  Forces<double> *data() { return slots.data(); }
 
   double bytes() const {
-    return double(order.capacity() + first.capacity() + counts.capacity() + pair_of_slot.capacity()) * sizeof(int) +
+    return double(order.capacity() + first_slot.capacity() + first_pair.capacity() + counts.capacity() +
+                  pair_of_slot.capacity()) *
+               sizeof(int) +
            double(runs.capacity() * sizeof(SlotRun) + slots.capacity() * sizeof(slots[0]));
   }
 
-  Column<Forces<double>> slots; // the last one is for what nobody sums
-
 private:
-  // Returns the number of slots.
-  int sort_by_count(const DiscPairs &pairs, const std::vector<int> &starts) {
-    const int n = starts.back();
+  int unsummed() const { return int(slots.size()) - 1; } // the slot for what nobody sums
+
+  void count_slots(const DiscPairs &pairs, int n) {
     counts.assign(n, 0);
     pairs.for_each([&](int k, const Material &) {
       for (int row : {pairs.a[k], pairs.b[k]})
         if (row < n)
           counts[row]++;
     });
-    order.resize(n);
-    first.resize(n);
+    first_pair.resize(n);
+    total = 0;
+    for (int row = 0; row < n; row++) {
+      first_pair[row] = total;
+      total += counts[row];
+    }
+  }
+
+  void sort_by_count(const std::vector<int> &starts) {
+    order.resize(starts.back());
     runs.clear();
     first_run.assign(1, 0);
-    first_slot.clear();
-    int slot = 0;
     for (std::size_t k = 0; k + 1 < starts.size(); k++) {
-      first_slot.push_back(slot);
       for (int row = starts[k]; row < starts[k + 1]; row++)
         order[row] = row;
       std::stable_sort(order.begin() + starts[k], order.begin() + starts[k + 1],
                        [&](int p, int q) { return counts[p] < counts[q]; });
       for (int d = starts[k]; d < starts[k + 1]; d++) {
-        const int row = order[d];
-        if (d == starts[k] || runs.back().count != counts[row])
-          runs.push_back({counts[row], d, d});
+        if (d == starts[k] || runs.back().count != counts[order[d]])
+          runs.push_back({counts[order[d]], d, d});
         runs.back().end++;
-        first[row] = slot;
-        slot += counts[row];
       }
       first_run.push_back(int(runs.size()));
     }
-    return slot;
   }
 
+  // Blocks are computed and summed in turn. A block's slots are in use from the first block with a pair that reaches
+  // into it until its own sum; after that later blocks take their place, so that all of them stay in the cache.
+  void assign_slots(const DiscPairs &pairs, const std::vector<int> &starts) {
+    const int blocks = int(starts.size()) - 1;
+    std::vector<int> end(blocks + 1, 0), last_reached(blocks); // slots before the end of a block; the last block in use
+    for (int k = 0; k < blocks; k++) {
+      end[k + 1] = end[k];
+      for (int row = starts[k]; row < starts[k + 1]; row++)
+        end[k + 1] += counts[row];
+      last_reached[k] = k;
+      for (int s = pairs.first_segment[k]; s < pairs.first_segment[k + 1]; s++)
+        for (int p = pairs.segments[s].begin; p < pairs.segments[s].end; p++)
+          if (const int row = std::max(pairs.a[p], pairs.b[p]); row < starts.back())
+            last_reached[k] = std::max(last_reached[k], block_of(starts, row));
+    }
+    int in_use = 0, largest = 0;
+    for (int k = 0, reached = 0; k < blocks; k++) {
+      reached = std::max(reached, last_reached[k]);
+      in_use = std::max(in_use, end[reached + 1] - end[k]);
+      largest = std::max(largest, end[k + 1] - end[k]);
+    }
+    const int room = std::min(total, in_use + largest); // a block that does not fit at the end begins anew
+    slots.reset(room + 1);
+    block_slot.assign(blocks, 0);
+    first_slot.resize(starts.back());
+    for (int k = 0, next = 0; k < blocks; k++) {
+      if (next + end[k + 1] - end[k] > room)
+        next = 0;
+      block_slot[k] = next;
+      for (int d = starts[k]; d < starts[k + 1]; d++) {
+        first_slot[order[d]] = next;
+        next += counts[order[d]];
+      }
+    }
+  }
+
+  static int block_of(const std::vector<int> &starts, int row) {
+    return int(std::upper_bound(starts.begin(), starts.end(), row) - starts.begin()) - 1;
+  }
+
+  Column<Forces<double>> slots;
+  int total = 0; // slots that are summed, each in its time
   std::vector<int> order;
-  std::vector<int> first, counts, pair_of_slot; // of each disc the first slot and their number; of each slot the pair
+  std::vector<int> first_slot, first_pair, counts; // of each disc: its first slot, and its pairs in order
+  std::vector<int> pair_of_slot;
   std::vector<SlotRun> runs;
-  std::vector<int> first_run, first_slot; // of each block
+  std::vector<int> first_run, block_slot; // of each block
 };
 
 } // namespace cdem

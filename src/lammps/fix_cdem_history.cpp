@@ -32,16 +32,14 @@ FixCDEMHistory::~FixCDEMHistory() {
 
 int FixCDEMHistory::setmask() { return FixConst::PRE_EXCHANGE; }
 
-void FixCDEMHistory::store(const std::vector<int> &count_of, const std::vector<std::pair<int, Contact>> &by_grain) {
-  contacts.resize(by_grain.size());
+void FixCDEMHistory::make_room(const std::vector<int> &count_of) {
   int next = 0;
   for (std::size_t i = 0; i < count_of.size(); i++) {
     first[i] = next;
     count[i] = 0;
     next += count_of[i];
   }
-  for (const auto &[i, contact] : by_grain)
-    contacts[first[i] + count[i]++] = contact;
+  contacts.resize(next);
   maxexchange = 1 + PER_CONTACT * (count_of.empty() ? 0 : *std::max_element(count_of.begin(), count_of.end()));
 }
 

@@ -26,8 +26,9 @@ public:
   FixCDEMHistory(LAMMPS *, int, char **);
   ~FixCDEMHistory() override;
 
-  // Takes the place of all that was stored; first[i] ... of grain i's contacts in `contacts`.
-  void store(const std::vector<int> &count, const std::vector<std::pair<int, Contact>> &by_grain);
+  // Forgets all and makes room for so many contacts of each grain, which are added then.
+  void make_room(const std::vector<int> &count);
+  void add(int i, const Contact &contact) { contacts[first[i] + count[i]++] = contact; }
   const Contact *find_contact(int i, tagint partner, int own_disc, int other_disc) const;
 
   int setmask() override;
@@ -52,7 +53,7 @@ private:
   int unpack(int i, const double *buf);
 
   std::vector<int> first, count; // per atom, into contacts
-  std::vector<Contact> contacts; // arriving grains append; store() starts afresh
+  std::vector<Contact> contacts; // arriving grains append; make_room() starts afresh
 };
 
 } // namespace LAMMPS_NS

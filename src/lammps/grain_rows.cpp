@@ -27,7 +27,6 @@ void GrainRows::init(const FixCDEMIntegrate *fix, const cdem::Kernels &fastest) 
 void GrainRows::map() {
   const int nall = atom->nlocal + atom->nghost;
   grains.resize(nall);
-  sums.resize(atom->nlocal);
   if (!clumps)
     return;
   bodies.resize(nall);
@@ -43,7 +42,6 @@ void GrainRows::map() {
   }
   first_row[nall] = int(grain_of_row.size());
   disc_rows.resize(grain_of_row.size());
-  sums.resize(first_row[atom->nlocal]);
 }
 
 double GrainRows::radius(int row) const {
@@ -98,7 +96,7 @@ void GrainRows::unpack(int n, int first, const double *buf) {
 }
 
 cdem::ClumpColumns GrainRows::columns() {
-  return {grains.data(), bodies.data(), first_row.data(), disc_rows.data(), offsets.data(), sums.data()};
+  return {grains.data(), bodies.data(), first_row.data(), disc_rows.data(), offsets.data(), sums.data(), first_summed};
 }
 
 void GrainRows::expand_ghosts() { expand(atom->nlocal, atom->nlocal + atom->nghost); }
@@ -108,16 +106,24 @@ void GrainRows::expand(int begin, int end) {
     kernels.expand(columns(), begin, end, update->setupflag ? 0 : 0.5 * update->dt);
 }
 
-void GrainRows::sum_block(const cdem::SlotBlock &block) { kernels.sum(block, sums.data()); }
+void GrainRows::sum_block(const cdem::SlotBlock &block, int first_grain, int end_grain) {
+  first_summed = rows_of(first_grain);
+  sums.resize(rows_of(end_grain) - first_summed);
+  kernels.sum(block, sums.data(), first_summed);
+}
 
 void GrainRows::sum_grain(const cdem::ForceSlots &slots, int i) {
-  for (int row = rows_of(i); row < rows_of(i + 1); row++)
-    cdem::store_raw(&sums[row].fx, slots.sum(row));
+  first_summed = rows_of(i);
+  sums.resize(rows_of(i + 1) - first_summed);
+  for (std::size_t k = 0; k < sums.size(); k++)
+    cdem::store_raw(&sums[k].fx, slots.sum(first_summed + int(k)));
 }
 
 cdem::DiscForce GrainRows::force_on(int i) {
-  if (!clumps)
-    return {sums[i].fx, sums[i].fy, sums[i].torque_a};
+  if (!clumps) {
+    const auto &sum = sums[i - first_summed];
+    return {sum.fx, sum.fy, sum.torque_a};
+  }
   const cdem::Four sum = cdem::force_on(columns(), i);
   return {sum[0], sum[1], sum[2]};
 }
@@ -138,7 +144,7 @@ void GrainRows::advance(const cdem::SlotBlock &block, int begin, int end, const 
     kernels.advance[body_forces](block, grains.data(), bodies.data(), step, fastest);
     return;
   }
-  sum_block(block);
+  sum_block(block, begin, end);
   kernels.advance_clumps[body_forces](columns(), begin, end, step, fastest);
 }
 

@@ -47,9 +47,9 @@ public:
   void unpack(int n, int first, const double *buf);
   void expand_ghosts();
 
-  // Sums the forces of the discs of a block, or of those of one grain, to the same bits; then force_on() knows the
-  // force on the grain and the torque about its centre.
-  void sum_block(const cdem::SlotBlock &);
+  // Sums the forces of the discs of a block that begins with this grain, or of one grain, to the same bits; then
+  // force_on() knows the force on such a grain and the torque about its centre.
+  void sum_block(const cdem::SlotBlock &, int first_grain, int end_grain);
   void sum_grain(const cdem::ForceSlots &, int i);
   cdem::DiscForce force_on(int i);
 
@@ -76,7 +76,8 @@ private:
   cdem::Column<cdem::Disc<double>> grains, disc_rows;
   cdem::Column<cdem::Body> bodies;         // of grains
   cdem::Column<cdem::Offset> offsets;      // of discs
-  cdem::Column<cdem::Forces<double>> sums; // of own discs
+  cdem::Column<cdem::Forces<double>> sums; // of some own discs, one after the other
+  int first_summed = 0;
 };
 
 } // namespace LAMMPS_NS

@@ -174,7 +174,7 @@ void PairCDEM::compute(int eflag, int vflag) {
     build_list();
     neighbours_built_at.resize(atom->nlocal);
     for (int i = 0; i < atom->nlocal; i++)
-      neighbours_built_at[i] = {atom->x[i][0], atom->x[i][1], 0};
+      neighbours_built_at[i] = {atom->x[i][0], atom->x[i][1]};
   } else if (turned_out_of_list()) {
     store_history();
     build_list();
@@ -199,7 +199,7 @@ void PairCDEM::unpack_forward_comm(int n, int first, double *buf) { rows.unpack(
 
 void PairCDEM::pair_forces(int block) {
   const double dt = update->setupflag ? 0 : update->dt;
-  const cdem::PairColumns columns = pairs.columns(slots.slots.data());
+  const cdem::PairColumns columns = pairs.columns(slots.data());
   for (int k = pairs.first_segment[block]; k < pairs.first_segment[block + 1]; k++) {
     const auto &segment = pairs.segments[k];
     kernels.forces(rows.discs(), columns, segment.material, segment.begin, segment.end, dt);
@@ -208,52 +208,68 @@ void PairCDEM::pair_forces(int block) {
 
 void PairCDEM::forces() {
   for (int block = 0; block < slots.blocks(); block++) {
+    const int begin = block_starts[block], end = block_starts[block + 1];
     pair_forces(block);
-    rows.sum_block(slots.block(block));
+    keep_forces(block);
+    rows.sum_block(slots.block(block), begin, end);
+    for (int i = begin; i < end; i++) {
+      const auto [fx, fy, torque] = rows.force_on(i);
+      atom->f[i][0] += fx;
+      atom->f[i][1] += fy;
+      atom->torque[i][2] += torque;
+    }
   }
-  for (int i = 0; i < atom->nlocal; i++) {
-    const auto [fx, fy, torque] = rows.force_on(i);
-    atom->f[i][0] += fx;
-    atom->f[i][1] += fy;
-    atom->torque[i][2] += torque;
-  }
+}
+
+// For all that looks at single contacts.
+void PairCDEM::keep_forces(int block) {
+  for (int s = pairs.first_segment[block]; s < pairs.first_segment[block + 1]; s++)
+    for (int k = pairs.segments[s].begin; k < pairs.segments[s].end; k++)
+      pairs.force[k] = slots.of_pair(pairs, k);
 }
 
 // A pair belongs to the block of its lower row. So once the pairs of a block are done, so are all pairs of its grains,
 // and these can be moved while their forces are still in the cache: later blocks don't look at them.
-void PairCDEM::forces_and_advance(const cdem::StepRule &step, cdem::Fastest &fastest) {
+void PairCDEM::forces_and_advance(const cdem::StepRule &step, const std::vector<int> &felt, cdem::Fastest &fastest) {
+  auto wall = felt.begin();
   for (int block = 0; block < slots.blocks(); block++) {
+    const int begin = block_starts[block], end = block_starts[block + 1];
     pair_forces(block);
-    rows.advance(slots.block(block), block_starts[block], block_starts[block + 1], step, fastest);
+    for (; wall != felt.end() && *wall < end; ++wall) {
+      rows.sum_grain(slots, *wall);
+      const auto [fx, fy, torque] = rows.force_on(*wall);
+      atom->f[*wall][0] = fx;
+      atom->f[*wall][1] = fy;
+    }
+    rows.advance(slots.block(block), begin, end, step, fastest);
   }
 }
 
-cdem::DiscForce PairCDEM::force_on(int i) {
-  rows.sum_grain(slots, i);
-  return rows.force_on(i);
+double PairCDEM::Place::moved(const cdem::Disc<double> &now) const {
+  const double dx = now.x - x, dy = now.y - y;
+  return std::sqrt(dx * dx + dy * dy);
 }
 
-double PairCDEM::Place::moved_and_turned(const cdem::Disc<double> &now, double angle_now, double reach) const {
-  const double dx = now.x - x, dy = now.y - y;
-  return std::sqrt(dx * dx + dy * dy) + reach * std::fabs(angle_now - angle);
+double PairCDEM::moved_and_turned(int i) const {
+  const Pose &then = discs_built_at[i];
+  return then.place.moved(rows.of_grain(i)) + rows.reach(i) * std::fabs(rows.angle(i) - then.angle);
 }
 
 // LAMMPS rebuilds its list of grain pairs when a centre has moved by half the skin. The list of disc pairs drawn from
 // it also ages when a grain turns; that is for this rank alone to see to, and needs no communication.
 bool PairCDEM::turned_out_of_list() const {
   for (std::size_t i = 0; i < discs_built_at.size(); i++)
-    if (const double reach = rows.reach(i); reach > 0)
-      if (discs_built_at[i].moved_and_turned(rows.of_grain(i), rows.angle(i), reach) > 0.5 * neighbor->skin)
-        return true;
+    if (rows.reach(i) > 0 && moved_and_turned(i) > 0.5 * neighbor->skin)
+      return true;
   return false;
 }
 
 double PairCDEM::room() const {
   double most = 0;
   for (int i = 0; i < atom->nlocal; i++) {
-    most = std::max(most, neighbours_built_at[i].moved_and_turned(rows.of_grain(i), 0, 0));
+    most = std::max(most, neighbours_built_at[i].moved(rows.of_grain(i)));
     if (rows.has_clumps())
-      most = std::max(most, discs_built_at[i].moved_and_turned(rows.of_grain(i), rows.angle(i), rows.reach(i)));
+      most = std::max(most, moved_and_turned(i));
   }
   return 0.5 * neighbor->skin - most;
 }
@@ -268,8 +284,7 @@ double PairCDEM::largest_reach() const {
 
 void PairCDEM::build_list() {
   divide_into_blocks();
-  find_candidates();
-  sort_candidates();
+  find_pairs();
   pairs.for_each([this](int k, const cdem::Material &) {
     set_constants(k);
     recall_history(k);
@@ -281,7 +296,7 @@ void PairCDEM::build_list() {
 
   discs_built_at.resize(rows.has_clumps() ? atom->nlocal + atom->nghost : 0);
   for (std::size_t i = 0; i < discs_built_at.size(); i++)
-    discs_built_at[i] = {rows.of_grain(i).x, rows.of_grain(i).y, rows.angle(i)};
+    discs_built_at[i] = {{rows.of_grain(i).x, rows.of_grain(i).y}, rows.angle(i)};
 }
 
 // Small enough that a block's forces stay in the cache.
@@ -300,8 +315,8 @@ bool PairCDEM::row_before(int p, int q) const {
   return tag_p != tag_q ? tag_p < tag_q : rows.disc(p) < rows.disc(q);
 }
 
-void PairCDEM::find_candidates() {
-  candidates.clear();
+// Calls visit(row, row) for all pairs of discs that may touch before the next rebuild.
+template <class Visit> void PairCDEM::for_each_candidate(Visit visit) const {
   for (int ii = 0; ii < list->inum; ii++) {
     const int i = list->ilist[ii];
     for (int jj = 0; jj < list->numneigh[i]; jj++) {
@@ -309,46 +324,44 @@ void PairCDEM::find_candidates() {
       if (!integrate->is_free(i) && !integrate->is_free(j))
         continue;
       if (!rows.has_clumps()) {
-        add_candidate(i, j);
+        visit(i, j);
         continue;
       }
       for (int p = rows.rows_of(i); p < rows.rows_of(i + 1); p++)
         for (int q = rows.rows_of(j); q < rows.rows_of(j + 1); q++)
           if (std::hypot(rows[p].x - rows[q].x, rows[p].y - rows[q].y) <
               rows.radius(p) + rows.radius(q) + neighbor->skin)
-            add_candidate(p, q);
+            visit(p, q);
     }
   }
 }
 
 // Segments are by block, then by material.
-void PairCDEM::add_candidate(int p, int q) {
-  const int i = rows.grain(p), j = rows.grain(q), types = atom->ntypes + 1;
-  const bool p_first = atom->tag[i] < atom->tag[j];
-  const auto [low, high] = std::minmax(atom->type[i], atom->type[j]);
-  const int block =
-      int(std::upper_bound(block_starts.begin(), block_starts.end(), std::min(i, j)) - block_starts.begin()) - 1;
-  candidates.push_back({p_first ? p : q, p_first ? q : p, (block * types + low) * types + high});
-}
-
-void PairCDEM::sort_candidates() {
+void PairCDEM::find_pairs() {
+  const int types = atom->ntypes + 1;
   std::vector<cdem::Material> by_types;
   for (const auto &row : materials)
     by_types.insert(by_types.end(), row.begin(), row.end());
-  std::vector<int> sizes(by_types.size() * (block_starts.size() - 1), 0), next(sizes.size(), 0);
-  for (const auto &c : candidates)
-    sizes[c.segment]++;
-  pairs.lay_out(by_types, sizes, law);
+  auto segment_of = [&](int p, int q) {
+    const int i = rows.grain(p), j = rows.grain(q);
+    const auto [low, high] = std::minmax(atom->type[i], atom->type[j]);
+    const auto after = std::upper_bound(block_starts.begin(), block_starts.end(), std::min(i, j));
+    return (int(after - block_starts.begin() - 1) * types + low) * types + high;
+  };
 
+  std::vector<int> sizes(by_types.size() * (block_starts.size() - 1), 0), next(sizes.size(), 0);
+  for_each_candidate([&](int p, int q) { sizes[segment_of(p, q)]++; });
+  pairs.lay_out(by_types, sizes, law);
   auto segment = pairs.segments.begin();
   for (std::size_t m = 0; m < sizes.size(); m++)
     if (sizes[m])
       next[m] = (segment++)->begin;
-  for (const auto &c : candidates) {
-    const int k = next[c.segment]++;
-    pairs.a[k] = c.a;
-    pairs.b[k] = c.b;
-  }
+  for_each_candidate([&](int p, int q) {
+    const int k = next[segment_of(p, q)]++;
+    const bool p_first = atom->tag[rows.grain(p)] < atom->tag[rows.grain(q)];
+    pairs.a[k] = p_first ? p : q;
+    pairs.b[k] = p_first ? q : p;
+  });
 }
 
 void PairCDEM::set_constants(int k) {
@@ -379,7 +392,7 @@ void PairCDEM::tally() {
     const int i = rows.grain(pairs.a[k]), j = rows.grain(pairs.b[k]);
     const double *const xi = atom->x[i], *const xj = atom->x[j];
     const double energy = eflag_either ? spring_energy(k, m) : 0;
-    const cdem::Forces<double> on_a = slots.of_pair(pairs, k);
+    const cdem::Forces<double> &on_a = pairs.force[k];
     ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, energy, 0, on_a.fx, on_a.fy, 0, xi[0] - xj[0], xi[1] - xj[1],
                  0);
   });
@@ -395,7 +408,7 @@ bool PairCDEM::counts(int k) const { return rows.grain(pairs.a[k]) < atom->nloca
 
 // Also in the step after it opened, in which its dashpot may have a share left.
 bool PairCDEM::acts(int k) const {
-  const cdem::Forces<double> on_a = slots.of_pair(pairs, k);
+  const cdem::Forces<double> &on_a = pairs.force[k];
   return overlap(k) > 0 || on_a.fx != 0 || on_a.fy != 0;
 }
 
@@ -418,7 +431,7 @@ double PairCDEM::elastic_energy() const {
 PairCDEM::Contact PairCDEM::contact(int k, const cdem::Material &m) const {
   const int p = pairs.a[k], q = pairs.b[k];
   const double dx = rows[p].x - rows[q].x, dy = rows[p].y - rows[q].y, distance = std::hypot(dx, dy);
-  const auto [fx, fy, torque_a, torque_b] = slots.of_pair(pairs, k);
+  const auto [fx, fy, torque_a, torque_b] = pairs.force[k];
   constexpr double ROUND_OFF = 1e-10;
 
   Contact c;
@@ -481,22 +494,22 @@ double PairCDEM::single(int i, int j, int itype, int jtype, double, double, doub
 void PairCDEM::store_history() {
   if (!history_in_list)
     return;
+  auto for_each_memory = [this](auto visit) { // visit(grain, contact as it remembers it)
+    pairs.for_each([&](int k, const cdem::Material &) {
+      const double es = pairs.es[k], en = law == cdem::Law::incremental ? pairs.en[k] : 0;
+      if (es == 0 && en == 0)
+        return;
+      const int a = pairs.a[k], b = pairs.b[k];
+      for (const auto &[own, other] : {std::pair{a, b}, std::pair{b, a}})
+        if (rows.grain(own) < atom->nlocal)
+          visit(rows.grain(own),
+                FixCDEMHistory::Contact{atom->tag[rows.grain(other)], rows.disc(own), rows.disc(other), es, en});
+    });
+  };
   std::vector<int> count(atom->nlocal, 0);
-  std::vector<std::pair<int, FixCDEMHistory::Contact>> by_grain;
-  pairs.for_each([&](int k, const cdem::Material &) {
-    const double es = pairs.es[k], en = law == cdem::Law::incremental ? pairs.en[k] : 0;
-    if (es == 0 && en == 0)
-      return;
-    const int a = pairs.a[k], b = pairs.b[k];
-    for (const auto &[own, other] : {std::pair{a, b}, std::pair{b, a}}) {
-      const int i = rows.grain(own);
-      if (i >= atom->nlocal)
-        continue;
-      count[i]++;
-      by_grain.push_back({i, {atom->tag[rows.grain(other)], rows.disc(own), rows.disc(other), es, en}});
-    }
-  });
-  history->store(count, by_grain);
+  for_each_memory([&](int i, const auto &) { count[i]++; });
+  history->make_room(count);
+  for_each_memory([this](int i, const auto &contact) { history->add(i, contact); });
 }
 
 void PairCDEM::release_history() {

@@ -77,19 +77,15 @@ public:
 
   // What a step consists of, for run style cdem, which steps the rows alone while nothing else asks for the atoms.
   GrainRows rows;
-  void exchange_ghosts();                                           // the rows of ghosts, from their owners
-  void forces();                                                    // adds to f and torque of own grains
-  void forces_and_advance(const cdem::StepRule &, cdem::Fastest &); // and moves the rows of own grains instead
-  cdem::DiscForce force_on(int i); // sum over its pairs, for a grain that is not moved by them
+  void exchange_ghosts(); // the rows of ghosts, from their owners
+  void forces();          // adds to f and torque of own grains
+  // The same, but moves the rows of own grains; f of these own walls only.
+  void forces_and_advance(const cdem::StepRule &, const std::vector<int> &felt, cdem::Fastest &);
   // How far any point of a grain may still move before the list misses a pair (m); less than 0: it may miss one now.
   double room() const;
   double largest_reach() const;
 
 private:
-  struct Candidate {
-    int a, b, segment;
-  };
-
   void allocate();
   void check_setting() const;
 
@@ -98,13 +94,13 @@ private:
 
   void build_list();
   void divide_into_blocks();
-  void find_candidates();
-  void add_candidate(int row_i, int row_j);
-  void sort_candidates();
+  template <class Visit> void for_each_candidate(Visit) const;
+  void find_pairs();
   void set_constants(int k);
   void recall_history(int k);
 
   void pair_forces(int block);
+  void keep_forces(int block);
   void tally();
 
   double overlap(int k) const;
@@ -124,14 +120,18 @@ private:
   // Where a grain was when the list of grain pairs, or that of disc pairs, was built. The latter also ages when a grain
   // turns; it can be rebuilt without any communication.
   struct Place {
-    double x, y, angle;
-    double moved_and_turned(const cdem::Disc<double> &, double angle_now, double reach) const;
+    double x, y;
+    double moved(const cdem::Disc<double> &) const;
   };
+  struct Pose {
+    Place place;
+    double angle;
+  };
+  double moved_and_turned(int i) const;
   std::vector<Place> neighbours_built_at; // of own grains
-  std::vector<Place> discs_built_at;      // of all grains, empty unless clumps
+  std::vector<Pose> discs_built_at;       // of all grains, empty unless clumps
 
   std::vector<int> block_starts; // grains block_starts[k] ... block_starts[k+1]-1 are block k
-  std::vector<Candidate> candidates;
   cdem::DiscPairs pairs;
   cdem::ForceSlots slots;
   cdem::Kernels kernels{};

@@ -129,7 +129,7 @@ void VerletCDEM::glide_on(bigint target) {
     if (rebuild_is_due(1, fastest) || update->ntimestep == target || stopped())
       break;
     fastest = {};
-    pair->forces_and_advance(rule, fastest);
+    pair->forces_and_advance(rule, felt, fastest);
     move_walls();
     for (FixCDEMTRM *fix : statistics)
       fix->add(pair->rows);
@@ -158,26 +158,24 @@ void VerletCDEM::begin_step() {
 void VerletCDEM::find_walls() {
   felt.clear();
   moving.clear();
-  for (const WallBody *fix : wall_bodies)
-    if (fix->follows_forces())
-      felt.insert(felt.end(), fix->own_discs().begin(), fix->own_discs().end());
   for (int i = 0; i < atom->nlocal; i++) {
+    if (integrate->is_free(i))
+      continue;
     const double *const v = atom->v[i];
-    const bool at_rest = v[0] == 0 && v[1] == 0 && atom->omega[i][2] == 0;
-    const bool moved = std::any_of(wall_bodies.begin(), wall_bodies.end(),
-                                   [=](const WallBody *fix) { return fix->moves() && fix->in_group(i); });
-    if (!integrate->is_free(i) && (moved || !at_rest))
+    bool moves = v[0] != 0 || v[1] != 0 || atom->omega[i][2] != 0, follows = false;
+    for (const WallBody *fix : wall_bodies) {
+      moves = moves || (fix->moves() && fix->in_group(i));
+      follows = follows || (fix->follows_forces() && fix->in_group(i));
+    }
+    if (moves)
       moving.push_back(i);
+    if (follows)
+      felt.push_back(i);
   }
 }
 
 // The second half of a step and the first of the next, by the fixes that move them.
 void VerletCDEM::move_walls() {
-  for (int i : felt) {
-    const auto [fx, fy, torque] = pair->force_on(i);
-    atom->f[i][0] = fx;
-    atom->f[i][1] = fy;
-  }
   for (WallBody *fix : wall_bodies)
     fix->final_integrate();
   update->ntimestep++;

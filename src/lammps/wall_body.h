@@ -22,7 +22,6 @@ public:
   void setup_pre_neighbor() override;
   void pre_neighbor() override;
 
-  const std::vector<int> &own_discs() const { return discs; }
   virtual bool follows_forces() const = 0; // whether it needs the forces in every step
   virtual bool moves() const = 0;
 

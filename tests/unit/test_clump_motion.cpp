@@ -40,7 +40,7 @@ struct Grains {
   std::vector<Forces<double>> sums{{1, 2, 3, 0}, {-4, 5, -6, 0}, {7, 8, 9, 0}};
 
   ClumpColumns columns() {
-    return {grains.data(), bodies.data(), first_row.data(), discs.data(), offsets.data(), sums.data()};
+    return {grains.data(), bodies.data(), first_row.data(), discs.data(), offsets.data(), sums.data(), 0};
   }
 };
 
