@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Proof that the engines simulate the same: small scenes, short runs, what they come to side by side.
+
+Beds: the grains get a push to the right, which waves, sliding contacts and dashpots use up in 2000 steps. The state after
+it is measured by one code from positions and velocities. Shear: the first 0.04 mm of the direct shear test, and what each
+engine says of its walls.
+
+Grains collide, so trajectories part after some 100 steps whatever the engines; only sums and means can agree.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from engines import CDEM, Job, execute, installed
+from scenes import AREAL_DENSITY, Bed, Scene, Shear
+
+KN = 1.0e8  # N/m, of the decks
+PUSH = {"push": 0.02, "state": 1}
+CHECKS: dict[str, Scene] = {
+    "bed": Bed({"n": 400, "width": 0.06}, disc_steps=400 * 2000, more=PUSH),
+    "clumps": Bed({"n": 200, "width": 0.06, "shape": "triple"}, disc_steps=600 * 2000, more=PUSH),
+    "shear": Shear(travel=0.04),
+}
+
+# Largest relative deviation of a peer from ours.
+TOLERANCES = {
+    # Sums over all contacts; a per cent of them open or close by chance.
+    "mean overlap (m)": 0.03,
+    "spring energy (J)": 0.02,
+    # A wall has some 20 contacts: a grain that comes to rest elsewhere moves the sum by some per cent. The push is
+    # against the sides.
+    "floor (N)": 0.05,
+    "left side (N)": 0.1,
+    "right side (N)": 0.1,
+    "lid (N)": 0.05,
+    # Of the push's energy a few per cent are left, much of it with loose grains that meet nobody. The peers damp all pairs
+    # at the mean grain's rate, to first order in the time step.
+    "used up of the push (%)": 0.02,
+    # Means over 0.04 mm, in which some contacts slip earlier or later.
+    "shear stress (kPa)": 0.03,
+    "shear stress, upper half (kPa)": 0.03,
+    "rise of the lid (mm)": 0.06,
+    # Set by the load; what deviates is the lid's vibration.
+    "normal stress (kPa)": 1e-3,
+}
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """A quantity of a scene, of ours and of a peer."""
+
+    scene: str
+    quantity: str
+    peer: str
+    ours: float
+    theirs: float
+
+    @property
+    def deviation(self) -> float:
+        """Relative to ours."""
+        return abs(self.theirs / self.ours - 1)
+
+    @property
+    def agrees(self) -> bool:
+        """Whether it is within the tolerance."""
+        return self.deviation <= TOLERANCES[self.quantity]
+
+
+def compare(name: str, beds: Path, work: Path) -> list[Comparison]:
+    """Runs a scene with every installed engine and compares each peer with ours."""
+    found: dict[str, dict[str, float]] = {}
+    for job in CHECKS[name].jobs(beds, 1):
+        if installed(job.engine):
+            folder = work / f"{name}-{job.engine}"
+            execute(job, folder)
+            found[job.engine] = shear(folder) if name == "shear" else bed(read_discs(job, folder))
+    ours = found.pop(CDEM)
+    return [
+        Comparison(name, quantity, peer, ours[quantity], theirs[quantity])
+        for peer, theirs in found.items()
+        for quantity in ours
+    ]
+
+
+def shear(folder: Path) -> dict[str, float]:
+    """Means over the rows of shear.dat, and the height of the lid at the end."""
+    _, _, tau, sigma, lid, upper, *_ = np.loadtxt(folder / "shear.dat", ndmin=2).T
+    return {
+        "shear stress (kPa)": tau.mean(),
+        "shear stress, upper half (kPa)": upper.mean(),
+        "normal stress (kPa)": sigma.mean(),
+        "rise of the lid (mm)": lid[-1],
+    }
+
+
+@dataclass(frozen=True)
+class Discs:
+    """All discs of a bed; a grain's discs share its number, wall discs have 0."""
+
+    grain: np.ndarray
+    x: np.ndarray  # (discs, 2), m
+    r: np.ndarray
+    v: np.ndarray  # (discs, 2), m/s
+    omega: np.ndarray
+
+
+def read_discs(job: Job, folder: Path) -> Discs:
+    """The discs of state.data, or of state.discs if grains are of several."""
+    atoms = section(folder / "state.data", "Atoms", 7)
+    speeds = section(folder / "state.data", "Velocities", 7)
+    tag, kind = atoms[:, 0], atoms[:, 1]
+    state = Discs(np.where(kind == 1, tag, 0), atoms[:, 4:6], atoms[:, 2] / 2, speeds[:, 1:3], speeds[:, 6])
+    if job.engine == CDEM:
+        rows = np.loadtxt(folder / "state.discs", skiprows=9, ndmin=2)
+        of = np.searchsorted(tag, rows[:, 0])
+        arm = rows[:, 2:4] - state.x[of]
+        turning = state.omega[of, None] * np.column_stack([-arm[:, 1], arm[:, 0]])
+        return Discs(state.grain[of], rows[:, 2:4], rows[:, 4], state.v[of] + turning, state.omega[of])
+    if job.deck.stem == "stock_rigid":
+        body = section(Path(job.variables["data"]), "Molecules", 2)[:, 1]
+        return replace(state, grain=body)
+    return state
+
+
+def section(data: Path, name: str, columns: int) -> np.ndarray:
+    """A section of a data file, by id."""
+    lines = iter(data.read_text().splitlines())
+    next(line for line in lines if line.split("#")[0].strip() == name)
+    next(lines)
+    rows = []
+    for line in lines:
+        if not line.strip():
+            break
+        rows.append(line.split()[:columns])
+    table = np.array(rows, float)
+    return table[table[:, 0].argsort()]
+
+
+def bed(discs: Discs) -> dict[str, float]:
+    """Contacts, springs, walls and motion of a bed."""
+    gap = discs.x[:, None] - discs.x
+    distance = np.hypot(gap[..., 0], gap[..., 1])
+    overlap = discs.r[:, None] + discs.r - distance
+    free = discs.grain > 0
+    touching = (overlap > 0) & (discs.grain[:, None] != discs.grain)  # walls are all of grain 0
+    one, other = np.nonzero(np.triu(touching, 1))
+    depth = overlap[one, other]
+
+    # normal force of the grains on each wall
+    wall, grain = np.nonzero(touching & ~free[:, None] & free)
+    push = KN * overlap[wall, grain, None] * gap[wall, grain] / distance[wall, grain, None]
+    low, high = discs.x[free].min(axis=0), discs.x[free].max(axis=0)
+    x, y = discs.x[wall].T
+
+    mass = AREAL_DENSITY * np.pi * discs.r**2
+    motion = mass * (discs.v**2).sum(axis=1) / 2 + mass * discs.r**2 / 4 * discs.omega**2
+    given = mass[free].sum() * PUSH["push"] ** 2 / 2
+    return {
+        "mean overlap (m)": depth.mean(),
+        "spring energy (J)": KN / 2 * (depth**2).sum(),
+        "floor (N)": -push[y < low[1], 1].sum(),
+        "left side (N)": -push[x < low[0], 0].sum(),
+        "right side (N)": push[x > high[0], 0].sum(),
+        "lid (N)": push[y > high[1], 1].sum(),
+        "used up of the push (%)": 100 * (1 - motion[free].sum() / given),
+    }
