@@ -1,27 +1,31 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Proof that the engines simulate the same: small scenes, short runs, what they come to side by side.
 
-Beds: the grains get a push to the right, which waves, sliding contacts and dashpots use up in 2000 steps. The state after
-it is measured by one code from positions and velocities. Shear: the first 0.04 mm of the direct shear test, and what each
-engine says of its walls.
+Beds: the grains get a push to the right, which waves, sliding contacts and dashpots use up in 2000 steps. The state
+after it is measured by one code from positions and velocities. Shear: the first 0.04 mm of the direct shear test, and
+what each engine says of its walls.
 
 Grains collide, so trajectories part after some 100 steps whatever the engines; only sums and means can agree.
 """
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from engines import CDEM, Job, execute, installed
-from scenes import AREAL_DENSITY, Bed, Scene, Shear
+from cases import AREAL_DENSITY, Bed, Scene, Shear
 
+Array = np.ndarray[Any, np.dtype[np.float64]]
 KN = 1.0e8  # N/m, of the decks
-PUSH = {"push": 0.02, "state": 1}
+PUSH = 0.02  # m/s
+PUSHED = {"push": PUSH, "state": 1}
 CHECKS: dict[str, Scene] = {
-    "bed": Bed({"n": 400, "width": 0.06}, disc_steps=400 * 2000, more=PUSH),
-    "clumps": Bed({"n": 200, "width": 0.06, "shape": "triple"}, disc_steps=600 * 2000, more=PUSH),
+    "bed": Bed({"n": 400, "width": 0.06}, disc_steps=400 * 2000, more=PUSHED),
+    "clumps": Bed({"n": 200, "width": 0.06, "shape": "triple"}, disc_steps=600 * 2000, more=PUSHED),
     "shear": Shear(travel=0.04),
 }
 
@@ -36,8 +40,8 @@ TOLERANCES = {
     "left side (N)": 0.1,
     "right side (N)": 0.1,
     "lid (N)": 0.05,
-    # Of the push's energy a few per cent are left, much of it with loose grains that meet nobody. The peers damp all pairs
-    # at the mean grain's rate, to first order in the time step.
+    # Of the push's energy a few per cent are left, much of it with loose grains that meet nobody. The peers damp all
+    # pairs at the mean grain's rate, to first order in the time step.
     "used up of the push (%)": 0.02,
     # Means over 0.04 mm, in which some contacts slip earlier or later.
     "shear stress (kPa)": 0.03,
@@ -100,11 +104,11 @@ def shear(folder: Path) -> dict[str, float]:
 class Discs:
     """All discs of a bed; a grain's discs share its number, wall discs have 0."""
 
-    grain: np.ndarray
-    x: np.ndarray  # (discs, 2), m
-    r: np.ndarray
-    v: np.ndarray  # (discs, 2), m/s
-    omega: np.ndarray
+    grain: Array
+    x: Array  # (discs, 2), m
+    r: Array
+    v: Array  # (discs, 2), m/s
+    omega: Array
 
 
 def read_discs(job: Job, folder: Path) -> Discs:
@@ -120,22 +124,18 @@ def read_discs(job: Job, folder: Path) -> Discs:
         turning = state.omega[of, None] * np.column_stack([-arm[:, 1], arm[:, 0]])
         return Discs(state.grain[of], rows[:, 2:4], rows[:, 4], state.v[of] + turning, state.omega[of])
     if job.deck.stem == "stock_rigid":
-        body = section(Path(job.variables["data"]), "Molecules", 2)[:, 1]
+        body = section(Path(str(job.variables["data"])), "Molecules", 2)[:, 1]
         return replace(state, grain=body)
     return state
 
 
-def section(data: Path, name: str, columns: int) -> np.ndarray:
+def section(data: Path, name: str, columns: int) -> Array:
     """A section of a data file, by id."""
     lines = iter(data.read_text().splitlines())
     next(line for line in lines if line.split("#")[0].strip() == name)
     next(lines)
-    rows = []
-    for line in lines:
-        if not line.strip():
-            break
-        rows.append(line.split()[:columns])
-    table = np.array(rows, float)
+    rows = itertools.takewhile(str.strip, lines)
+    table: Array = np.array([row.split()[:columns] for row in rows], float)
     return table[table[:, 0].argsort()]
 
 
@@ -157,7 +157,7 @@ def bed(discs: Discs) -> dict[str, float]:
 
     mass = AREAL_DENSITY * np.pi * discs.r**2
     motion = mass * (discs.v**2).sum(axis=1) / 2 + mass * discs.r**2 / 4 * discs.omega**2
-    given = mass[free].sum() * PUSH["push"] ** 2 / 2
+    given = mass[free].sum() * PUSH**2 / 2
     return {
         "mean overlap (m)": depth.mean(),
         "spring energy (J)": KN / 2 * (depth**2).sum(),

@@ -7,7 +7,6 @@ import os
 import re
 import shutil
 import subprocess
-import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -17,6 +16,7 @@ ROOT = HERE.parents[1]
 CDEM, STOCK, LIGGGHTS = "cdem", "LAMMPS", "LIGGGHTS"
 PROGRAMS = {CDEM: str(ROOT / "build" / "lmp_cdem"), STOCK: "lmp", LIGGGHTS: "liggghts"}
 PACKAGES = {CDEM: "tools/setup", STOCK: "apt-get install lammps", LIGGGHTS: "apt-get install liggghts"}
+VERSIONS = {CDEM: r"Shearbox (.*)", STOCK: r"LAMMPS \((.*)\)", LIGGGHTS: r"LIGGGHTS-PUBLIC ([^,]*)"}
 PHASES = ("pair", "neigh", "comm", "output", "modify", "other")
 
 ENVIRONMENT = os.environ | {
@@ -33,13 +33,13 @@ class EngineError(RuntimeError):
 
 @dataclass(frozen=True)
 class Job:
-    """A deck for an engine, and how much of it there is to do."""
+    """A deck for an engine."""
 
     engine: str
     deck: Path
     variables: Mapping[str, object]
-    steps: int
-    discs: int  # of grains: what the time is divided by
+    steps: int = 0  # expected, to guess how long it takes
+    discs: int = 1  # of grains: what the time is divided by
     ranks: int = 1
     files: tuple[Path, ...] = ()  # wanted in the folder of the run
 
@@ -73,18 +73,20 @@ def installed(engine: str) -> bool:
 
 def has_run_style() -> bool:
     """Whether lmp_cdem has a run style of its own. (LAMMPS calls an unknown style an error instead of saying no.)"""
-    question = "variable there equal is_available(integrate,cdem)\nprint ${there}\n"
-    words = [PROGRAMS[CDEM], "-log", "none"]
-    return subprocess.run(words, input=question.encode(), env=ENVIRONMENT, capture_output=True, check=False).returncode == 0
+    return ask(CDEM, "variable there equal is_available(integrate,cdem)\nprint ${there}\n")[0] == 0
 
 
 def version(engine: str) -> str:
-    """The version that the engine prints above its help."""
-    with tempfile.TemporaryDirectory() as folder:  # LIGGGHTS leaves a log
-        words = [PROGRAMS[engine], "-h"]
-        text = subprocess.run(words, cwd=folder, env=ENVIRONMENT, capture_output=True, text=True, check=False).stdout
-    found = re.search(r"LIGGGHTS-PUBLIC [\d.]+|\d+ \w+ \d{4}( - Update \d+)?", text)
-    return found[0] if found else "unknown"
+    """The version that the engine prints when it starts."""
+    found = re.search(VERSIONS[engine], ask(engine, "")[1])
+    return found[1] if found else "unknown"
+
+
+def ask(engine: str, deck: str) -> tuple[int, str]:
+    """Exit status and output of some lines of a deck."""
+    words = [PROGRAMS[engine], "-log", "none"]
+    done = subprocess.run(words, input=deck, env=ENVIRONMENT, capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout
 
 
 def execute(job: Job, folder: Path, core: int | None = None) -> Sample:
@@ -131,13 +133,13 @@ def wait(words: list[str], folder: Path) -> tuple[int, int]:
 def read(text: str, job: Job, peak: int) -> Sample:
     """What the engine printed about its last run."""
     last = text[text.rindex("Loop time of") :]
-    seconds = float(last.split()[3])
+    seconds = float(re.findall(r"Loop time of (\S+)", last)[0])
     return Sample(
         seconds,
-        job.steps,
-        job.discs,
-        builds=int(re.search(r"Neighbor list builds = (\d+)", last)[1]),
-        dangerous=int(re.search(r"Dangerous builds = (\d+)", last)[1]),
+        steps=int(re.findall(r" for (\d+) steps", last)[0]),
+        discs=job.discs,
+        builds=int(re.findall(r"Neighbor list builds = (\d+)", last)[0]),
+        dangerous=int(re.findall(r"Dangerous builds = (\d+)", last)[0]),
         peak_bytes=peak,
         phases=phases(last, seconds),
     )

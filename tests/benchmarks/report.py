@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import statistics
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import matplotlib
@@ -12,7 +12,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from engines import CDEM, LIGGGHTS, PHASES, STOCK, Sample
-from scenes import BY_RANKS, BY_SIZE, SCENES
+from cases import BY_RANKS, BY_SIZE, SCENES
 
 Samples = dict[str, list[Sample]]  # of a scene, by engine; the n-th of each were measured in turn
 PEERS = (STOCK, LIGGGHTS)
@@ -40,8 +40,8 @@ def text(machine: dict[str, str], scenes: dict[str, Samples]) -> str:
     """The whole report, but for the plots."""
     parts = [
         "\n".join(f"- {name}: {value}" for name, value in machine.items()),
-        "Time per disc and step of the whole run (ns), medians; how many times as long the peers take, median (range) of "
-        "the rounds:\n\n" + speed_table(scenes),
+        "Time per disc and step of the whole run (ns), medians; how many times as long the peers take, median (range) "
+        "of the rounds:\n\n" + speed_table(scenes),
         "Time per disc and step by phase (ns), as the engines say, and neighbour rebuilds:\n\n" + phase_table(scenes),
     ]
     for extra in (shear_text(scenes), memory_text(scenes), rank_text(scenes)):
@@ -73,9 +73,12 @@ def phase_table(scenes: dict[str, Samples]) -> str:
         for engine, samples in scene.items():
             run = middle(samples)
             spent = [f"{run.scaled(run.phases[phase]):.1f}" for phase in PHASES]
-            share = f"{100 * run.phases['neigh'] / run.seconds:.2f} %"
-            rows.append([name, engine, *spent, str(run.builds), str(run.steps), share, str(run.dangerous)])
-    return table(["scene", "engine", *PHASES, "rebuilds", "in steps", "share of time", "dangerous"], rows)
+            neigh = run.phases["neigh"]
+            each = f"{neigh / run.builds / run.discs * 1e9:.0f}" if run.builds else "–"
+            share = f"{100 * neigh / run.seconds:.2f} %"
+            rows.append([name, engine, *spent, f"{run.builds} in {run.steps}", each, share, str(run.dangerous)])
+    rebuilds = ["rebuilds in steps", "ns a disc and rebuild", "share of the time", "dangerous"]
+    return table(["scene", "engine", *PHASES, *rebuilds], rows)
 
 
 def middle(samples: list[Sample]) -> Sample:
@@ -131,7 +134,9 @@ def rank_text(scenes: dict[str, Samples]) -> str:
 def plots(scenes: dict[str, Samples], folder: Path) -> None:
     """All plots for which something was measured."""
     plt.rcParams.update({"figure.figsize": (6, 3.6), "figure.dpi": 100, "axes.grid": True, "axes.axisbelow": True})
-    plt.rcParams.update({"grid.alpha": 0.3, "figure.constrained_layout.use": True, "svg.hashsalt": "benchmarks"})
+    plt.rcParams.update({"grid.alpha": 0.3, "figure.constrained_layout.use": True, "svg.fonttype": "none"})
+    for old in folder.glob("*.svg"):
+        old.unlink()
     curves(scenes, BY_SIZE, lambda name: SCENES[name].discs, "discs", folder / "by_size.svg")
     curves(scenes, BY_RANKS, lambda name: SCENES[name].ranks, "ranks", folder / "by_ranks.svg")
     ratio_bars(scenes, folder / "ratios.svg")
@@ -139,12 +144,14 @@ def plots(scenes: dict[str, Samples], folder: Path) -> None:
 
 
 def save(figure: plt.Figure, file: Path) -> None:
-    """Writes a figure, the same bytes for the same numbers."""
+    """Writes a figure."""
     figure.savefig(file, metadata={"Date": None})
     plt.close(figure)
 
 
-def curves(scenes: dict[str, Samples], names: Iterable[str], along, label: str, file: Path) -> None:
+def curves(
+    scenes: dict[str, Samples], names: Iterable[str], along: Callable[[str], int], label: str, file: Path
+) -> None:
     """Time per disc and step against size or ranks, with the range of the rounds."""
     names = [name for name in names if name in scenes]
     if len(names) < 2:
@@ -189,7 +196,11 @@ def ratio_bars(scenes: dict[str, Samples], file: Path) -> None:
 
 def phase_bars(scenes: dict[str, Samples], file: Path) -> None:
     """Time per disc and step by phase."""
-    bars = [(f"{name}, {engine}", middle(samples)) for name, scene in scenes.items() for engine, samples in scene.items()]
+    bars = [
+        (f"{name}, {engine}", middle(samples))
+        for name, scene in scenes.items()
+        for engine, samples in scene.items()
+    ]
     figure, axes = plt.subplots(figsize=(7, 1.2 + 0.22 * len(bars)))
     left = [0.0] * len(bars)
     for phase in PHASES:

@@ -5,40 +5,27 @@ from __future__ import annotations
 
 import re
 import shutil
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Protocol
 
 import numpy as np
 from engines import CDEM, HERE, LIGGGHTS, ROOT, STOCK, Job, has_run_style, start
 
 AREAL_DENSITY = 26.5  # kg/m^2
 INPUT = ROOT / "input"
-FULL_TEST = {"seconds": 4.0, "rows": 800, "frames": 100}  # 8 mm at 2 mm/s, and the output of it
-
-
-class Scene(Protocol):
-    """Something to step."""
-
-    ranks: int
-
-    @property
-    def discs(self) -> int:
-        """Discs of all grains."""
-
-    def jobs(self, beds: Path, share: float) -> list[Job]:
-        """A job for each engine, ours first; `share` shortens them. Makes the bed if it is not there yet."""
+FULL_TEST = 4.0, 800, 100  # s, rows of output, frames: 8 mm at 2 mm/s
 
 
 @dataclass(frozen=True)
 class Bed:
     """A bed at rest (variables of bed.in), copies of it, ranks, and for how many disc-steps it runs."""
 
-    bed: dict[str, float | str]
+    bed: Mapping[str, float | str]
     copies: tuple[int, int] = (1, 1)
     ranks: int = 1
     disc_steps: float = 6e7
-    more: dict[str, object] = field(default_factory=dict)  # variables of scene.in
+    more: Mapping[str, object] = field(default_factory=dict)  # variables of scene.in
 
     @property
     def discs(self) -> int:
@@ -51,15 +38,17 @@ class Bed:
         return self.bed.get("shape") == "triple"
 
     def jobs(self, beds: Path, share: float) -> list[Job]:
-        """pair style cdem, stock LAMMPS, and LIGGGHTS, which has no rigid bodies in a bed made elsewhere."""
+        """A job for each engine, ours first; makes the bed if it is not there yet. `share` shortens the jobs. None for
+        LIGGGHTS with grains of three discs: it makes its rigid bodies itself, and cannot take them from a bed.
+        """
         folder = pack(self.bed, beds)
         steps = max(100, round(share * self.disc_steps / self.discs))
         shared = {"decks": HERE, "steps": steps, "nx": self.copies[0], "ny": self.copies[1], **self.more}
         style = {"style": "cdem" if has_run_style() else "verlet"}
 
         def job(engine: str, deck: str, data: str, **variables: str) -> Job:
-            files = {**shared, "data": folder / data, **variables}
-            return Job(engine, HERE / deck, files, steps, self.discs, self.ranks)
+            values = {**shared, "data": folder / data, **variables}
+            return Job(engine, HERE / deck, values, steps, self.discs, self.ranks)
 
         if self.clumps:
             ours = job(CDEM, "cdem.in", "bed.restart", shape="triple", restart="1", **style)
@@ -84,23 +73,29 @@ class Shear:
         return int(self.model.split("_")[-1])
 
     def jobs(self, beds: Path, share: float) -> list[Job]:
-        """The same test, time step, and intervals of output (in steps) for all engines."""
+        """A job for each engine, ours first; makes the specimen if it is not there yet. `share` shortens the travel.
+        All have the same time step, and the full test's intervals of output in steps.
+        """
         folder = consolidate(self.model, self.sigma, beds)
         scene = (folder / "shear.scene").read_text()
-        dt = float(re.search(r"variable dt index (\S+)", scene)[1])
+        dt = float(re.findall(r"variable dt index (\S+)", scene)[0])
         travel = share * self.travel
-        part = travel / self.speed / FULL_TEST["seconds"]
-        rows, frames = (max(1, round(part * FULL_TEST[name])) for name in ("rows", "frames"))
+        seconds, *outputs = FULL_TEST
+        rows, frames = (max(1, round(travel / self.speed / seconds * number)) for number in outputs)
         steps = row_steps(travel / self.speed / dt / rows) * rows
         test = {"sigma": self.sigma, "speed": self.speed, "travel": travel, "rows": rows, "frames": frames}
-        files = {"decks": HERE, "data": folder / "shear.data", "scene": folder / "shear.scene", **test}
+        files = {"data": folder / "shear.data", "scene": folder / "shear.scene"}
+        peers: dict[str, object] = {"decks": HERE, **files, **test}
         ours = {"decks": INPUT, "model": self.model, "dt": repr(dt), "ramp": 0, **test}
         restart = (folder / "consolidated.restart",)
         return [
             Job(CDEM, INPUT / "shear.in", ours, steps, self.discs, files=restart),
-            Job(STOCK, HERE / "shear_stock.in", files, steps, self.discs),
-            Job(LIGGGHTS, HERE / "shear_liggghts.in", files, steps, self.discs),
+            Job(STOCK, HERE / "shear_stock.in", peers, steps, self.discs),
+            Job(LIGGGHTS, HERE / "shear_liggghts.in", peers, steps, self.discs),
         ]
+
+
+Scene = Bed | Shear
 
 
 def row_steps(wanted: float) -> int:
@@ -109,11 +104,11 @@ def row_steps(wanted: float) -> int:
     return sample * int(np.ceil(wanted / sample))
 
 
-SMALL = {"n": 350, "width": 0.1, "dmin": 0.004, "dmax": 0.008}
-THOUSAND = {"n": 1000, "width": 0.08}
-MIDDLE = {"n": 1500, "width": 0.1}
-LARGE = {"n": 9000, "width": 0.3}
-CLUMPS = {"n": 500, "width": 0.1, "shape": "triple"}
+SMALL: Mapping[str, float | str] = {"n": 350, "width": 0.1, "dmin": 0.004, "dmax": 0.008}
+THOUSAND: Mapping[str, float | str] = {"n": 1000, "width": 0.08}
+MIDDLE: Mapping[str, float | str] = {"n": 1500, "width": 0.1}
+LARGE: Mapping[str, float | str] = {"n": 9000, "width": 0.3}
+CLUMPS: Mapping[str, float | str] = {"n": 500, "width": 0.1, "shape": "triple"}
 
 SHEAR = "shear test"
 BY_SIZE = ("1e3 discs", "1e4 discs", "1e5 discs", "1e6 discs")
@@ -132,12 +127,12 @@ SCENES: dict[str, Scene] = {
 }
 
 
-def pack(bed: dict[str, float | str], beds: Path) -> Path:
+def pack(bed: Mapping[str, float | str], beds: Path) -> Path:
     """The folder with a bed, packed if it is not there yet."""
     folder = beds / "-".join(str(value) for value in bed.values())
     if not folder.exists():
         made = folder.with_name(folder.name + ".new")  # an interrupted packing leaves no folder that looks whole
-        start(Job(CDEM, HERE / "bed.in", bed, 1, 1), made)
+        start(Job(CDEM, HERE / "bed.in", bed), made)
         plain_atoms(made / "bed.data")
         write_rigid(made)
         made.rename(folder)
@@ -150,12 +145,11 @@ def consolidate(model: str, sigma: float, beds: Path) -> Path:
     if not folder.exists():
         made = folder.with_name(folder.name + ".new")
         about = {"decks": INPUT, "model": model}
-        start(Job(CDEM, INPUT / "pack.in", about, 1, 1), made / "packed")
+        start(Job(CDEM, INPUT / "pack.in", about), made / "packed")
         packed = made / "packed" / "packed.restart"
-        about_more = about | {"packed": packed, "sigma": sigma}
-        start(Job(CDEM, INPUT / "consolidate.in", about_more, 1, 1), made / "consolidated")
+        start(Job(CDEM, INPUT / "consolidate.in", {**about, "packed": packed, "sigma": sigma}), made / "consolidated")
         restart = made / "consolidated" / "consolidated.restart"
-        start(Job(CDEM, HERE / "shear_bed.in", about, 0, 1, files=(restart,)), made / "shear")
+        start(Job(CDEM, HERE / "shear_bed.in", about, files=(restart,)), made / "shear")
         plain_atoms(made / "shear" / "shear.data")
         shutil.move(made / "shear", folder)
         shutil.rmtree(made)
