@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from engines import CDEM, HERE, LIGGGHTS, ROOT, STOCK, Job, has_run_style, start
+from engines import CDEM, HERE, LIGGGHTS, ROOT, STOCK, Job, run_style, start
 
 AREAL_DENSITY = 26.5  # kg/m^2
 INPUT = ROOT / "input"
@@ -44,7 +44,7 @@ class Bed:
         folder = pack(self.bed, beds)
         steps = max(100, round(share * self.disc_steps / self.discs))
         shared = {"decks": HERE, "steps": steps, "nx": self.copies[0], "ny": self.copies[1], **self.more}
-        style = {"style": "cdem" if has_run_style() else "verlet"}
+        style = {"style": run_style()}
 
         def job(engine: str, deck: str, data: str, **variables: str) -> Job:
             values = {**shared, "data": folder / data, **variables}

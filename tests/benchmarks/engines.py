@@ -17,6 +17,7 @@ CDEM, STOCK, LIGGGHTS = "cdem", "LAMMPS", "LIGGGHTS"
 PROGRAMS = {CDEM: str(ROOT / "build" / "lmp_cdem"), STOCK: "lmp", LIGGGHTS: "liggghts"}
 PACKAGES = {CDEM: "tools/setup", STOCK: "apt-get install lammps", LIGGGHTS: "apt-get install liggghts"}
 VERSIONS = {CDEM: r"Shearbox (.*)", STOCK: r"LAMMPS \((.*)\)", LIGGGHTS: r"LIGGGHTS-PUBLIC ([^,]*)"}
+OWN_RUN_STYLE = "verlet/cdem"
 PHASES = ("pair", "neigh", "comm", "output", "modify", "other")
 
 ENVIRONMENT = os.environ | {
@@ -71,9 +72,10 @@ def installed(engine: str) -> bool:
     return shutil.which(PROGRAMS[engine]) is not None
 
 
-def has_run_style() -> bool:
-    """Whether lmp_cdem has a run style of its own. (LAMMPS calls an unknown style an error instead of saying no.)"""
-    return ask(CDEM, "variable there equal is_available(integrate,cdem)\nprint ${there}\n")[0] == 0
+def run_style() -> str:
+    """The run style of lmp_cdem: its own if it has one. (LAMMPS calls an unknown style an error instead of saying no.)"""
+    question = f"variable there equal is_available(integrate,{OWN_RUN_STYLE})\nprint ${{there}}\n"
+    return "verlet" if ask(CDEM, question)[0] else OWN_RUN_STYLE
 
 
 def version(engine: str) -> str:
