@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Proof that the engines simulate the same: small scenes, short runs, what they come to side by side.
 
-Beds: the grains get a push to the right, which waves, sliding contacts and dashpots use up in 2000 steps. The state
-after it is measured by one code from positions and velocities. Shear: the first 0.04 mm of the direct shear test, and
-what each engine says of its walls.
+Beds: the grains get a push to the right. After 200 steps half of it is used up, by dashpots and sliding contacts, after
+2000 nearly all. The state is measured by one code from positions and velocities. Shear: the first 0.04 mm of the direct
+shear test, and what each engine says of its walls.
 
 Grains collide, so trajectories part after some 100 steps whatever the engines; only sums and means can agree.
 """
@@ -22,30 +22,33 @@ from cases import AREAL_DENSITY, Bed, Scene, Shear
 Array = np.ndarray[Any, np.dtype[np.float64]]
 KN = 1.0e8  # N/m, of the decks
 PUSH = 0.02  # m/s
-PUSHED = {"push": PUSH, "state": 1}
+BED = Bed({"n": 400, "width": 0.06}, more={"push": PUSH, "state": 1})
+CLUMPS = Bed({"n": 200, "width": 0.06, "shape": "triple"}, more={"push": PUSH, "state": 1})
 CHECKS: dict[str, Scene] = {
-    "bed": Bed({"n": 400, "width": 0.06}, disc_steps=400 * 2000, more=PUSHED),
-    "clumps": Bed({"n": 200, "width": 0.06, "shape": "triple"}, disc_steps=600 * 2000, more=PUSHED),
+    "bed, 200 steps": replace(BED, disc_steps=200 * BED.discs),
+    "bed, 2000 steps": replace(BED, disc_steps=2000 * BED.discs),
+    "clumps, 200 steps": replace(CLUMPS, disc_steps=200 * CLUMPS.discs),
+    "clumps, 2000 steps": replace(CLUMPS, disc_steps=2000 * CLUMPS.discs),
     "shear": Shear(travel=0.04),
 }
 
-# Largest relative deviation of a peer from ours.
+# Largest relative deviation of a peer from ours. With 10 % more stiffness, half the damping or 22 instead of 27 degrees of
+# friction in a peer, at least one of them is exceeded.
 TOLERANCES = {
-    # Sums over all contacts; a per cent of them open or close by chance.
-    "mean overlap (m)": 0.03,
-    "spring energy (J)": 0.02,
+    # Sums over all contacts, of which one in a hundred opens or closes by chance.
+    "mean overlap (m)": 0.01,
+    "spring energy (J)": 0.01,
     # A wall has some 20 contacts: a grain that comes to rest elsewhere moves the sum by some per cent. The push is
     # against the sides.
-    "floor (N)": 0.05,
-    "left side (N)": 0.1,
-    "right side (N)": 0.1,
-    "lid (N)": 0.05,
-    # Of the push's energy a few per cent are left, much of it with loose grains that meet nobody. The peers damp all
-    # pairs at the mean grain's rate, to first order in the time step.
-    "used up of the push (%)": 0.02,
-    # Means over 0.04 mm, in which some contacts slip earlier or later.
-    "shear stress (kPa)": 0.03,
-    "shear stress, upper half (kPa)": 0.03,
+    "floor (N)": 0.03,
+    "lid (N)": 0.03,
+    "left side (N)": 0.08,
+    "right side (N)": 0.08,
+    # The peers damp all pairs at the mean grain's rate, and LAMMPS gives clumps too much inertia.
+    "used up of the push (%)": 0.05,
+    # Means over 0.04 mm, in which some contacts slip earlier or later; the lid rises by 4 micrometres.
+    "shear stress (kPa)": 0.02,
+    "shear stress, upper half (kPa)": 0.02,
     "rise of the lid (mm)": 0.06,
     # Set by the load; what deviates is the lid's vibration.
     "normal stress (kPa)": 1e-3,
@@ -76,11 +79,12 @@ class Comparison:
 def compare(name: str, beds: Path, work: Path) -> list[Comparison]:
     """Runs a scene with every installed engine and compares each peer with ours."""
     found: dict[str, dict[str, float]] = {}
-    for job in CHECKS[name].jobs(beds, 1):
+    scene = CHECKS[name]
+    for job in scene.jobs(beds, 1):
         if installed(job.engine):
-            folder = work / f"{name}-{job.engine}"
+            folder = work / f"{name}, {job.engine}"
             execute(job, folder)
-            found[job.engine] = shear(folder) if name == "shear" else bed(read_discs(job, folder))
+            found[job.engine] = bed(read_discs(job, folder)) if isinstance(scene, Bed) else shear(folder)
     ours = found.pop(CDEM)
     return [
         Comparison(name, quantity, peer, ours[quantity], theirs[quantity])
