@@ -47,7 +47,7 @@ class Bed:
         style = {"style": run_style()}
 
         def job(engine: str, deck: str, data: str, **variables: str) -> Job:
-            values = {**shared, "data": folder / data, **variables}
+            values: dict[str, object] = {**shared, "data": folder / data, **variables}
             return Job(engine, HERE / deck, values, steps, self.discs, self.ranks)
 
         if self.clumps:

@@ -140,7 +140,8 @@ def section(data: Path, name: str, columns: int) -> Array:
     next(lines)
     rows = itertools.takewhile(str.strip, lines)
     table: Array = np.array([row.split()[:columns] for row in rows], float)
-    return table[table[:, 0].argsort()]
+    by_id: Array = table[table[:, 0].argsort()]
+    return by_id
 
 
 def bed(discs: Discs) -> dict[str, float]:
