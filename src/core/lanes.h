@@ -53,6 +53,13 @@ namespace stdx = std::experimental;
 template <class Abi> using Lanes = stdx::simd<double, Abi>;
 template <class Abi> using LaneMask = stdx::simd_mask<double, Abi>;
 
+// The library's own conversion fails on arm64 with GCC 12.
+template <class Abi> inline auto raw(Lanes<Abi> lanes) {
+  typename Raw<Lanes<Abi>::size()>::type r;
+  std::memcpy(&r, &lanes, sizeof(r));
+  return r;
+}
+
 template <class Abi> inline Lanes<Abi> select(LaneMask<Abi> condition, Lanes<Abi> yes, Lanes<Abi> no) {
   stdx::where(condition, no) = yes;
   return no;
@@ -66,15 +73,15 @@ template <class Abi> inline Lanes<Abi> fused(Lanes<Abi> a, Lanes<Abi> b, Lanes<A
   [[maybe_unused]] constexpr int W = Lanes<Abi>::size(); // the library's own fma falls apart into scalars in GCC 12
 #if defined(__AVX512F__)
   if constexpr (W == 8)
-    return Lanes<Abi>(_mm512_fmadd_pd(static_cast<__m512d>(a), static_cast<__m512d>(b), static_cast<__m512d>(c)));
+    return Lanes<Abi>(_mm512_fmadd_pd(raw(a), raw(b), raw(c)));
 #endif
 #if defined(__FMA__)
   if constexpr (W == 4)
-    return Lanes<Abi>(_mm256_fmadd_pd(static_cast<__m256d>(a), static_cast<__m256d>(b), static_cast<__m256d>(c)));
+    return Lanes<Abi>(_mm256_fmadd_pd(raw(a), raw(b), raw(c)));
 #endif
 #if defined(__ARM_FEATURE_FMA)
   if constexpr (W == 2)
-    return Lanes<Abi>(vfmaq_f64(static_cast<float64x2_t>(c), static_cast<float64x2_t>(a), static_cast<float64x2_t>(b)));
+    return Lanes<Abi>(vfmaq_f64(raw(c), raw(a), raw(b)));
 #endif
   return a * b + c;
 }
@@ -82,11 +89,11 @@ template <class Abi> inline Lanes<Abi> fused(Lanes<Abi> a, Lanes<Abi> b, Lanes<A
 template <class Abi> inline Lanes<Abi> fused_minus(Lanes<Abi> a, Lanes<Abi> b, Lanes<Abi> c) {
 #if defined(__AVX512F__)
   if constexpr (Lanes<Abi>::size() == 8)
-    return Lanes<Abi>(_mm512_fmsub_pd(static_cast<__m512d>(a), static_cast<__m512d>(b), static_cast<__m512d>(c)));
+    return Lanes<Abi>(_mm512_fmsub_pd(raw(a), raw(b), raw(c)));
 #endif
 #if defined(__FMA__)
   if constexpr (Lanes<Abi>::size() == 4)
-    return Lanes<Abi>(_mm256_fmsub_pd(static_cast<__m256d>(a), static_cast<__m256d>(b), static_cast<__m256d>(c)));
+    return Lanes<Abi>(_mm256_fmsub_pd(raw(a), raw(b), raw(c)));
 #endif
   return fused(a, b, -c);
 }

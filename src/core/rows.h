@@ -146,8 +146,7 @@ template <class Abi> inline void store(double *column, Lanes<Abi> value) {
 template <class Abi>
 inline void store_forces(Forces<double> *slots, const int *slot_a, const int *slot_b, const Forces<Lanes<Abi>> &f) {
   constexpr int W = Lanes<Abi>::size();
-  using R = typename Raw<W>::type;
-  Quads<W> on_a{R(f.fx), R(f.fy), R(f.torque_a), R(f.torque_b)}, on_b;
+  Quads<W> on_a{raw(f.fx), raw(f.fy), raw(f.torque_a), raw(f.torque_b)}, on_b;
   transpose<W>(on_a);
   for (int i = 0; i < 4; i++)
     on_b[i] = opposite_quad(on_a[i], i, std::make_index_sequence<W>());
