@@ -4,21 +4,32 @@
 namespace cdem {
 
 Kernels kernels_baseline(Law, bool limit_damping);
-
 #ifdef CDEM_X86_64
 Kernels kernels_avx2(Law, bool limit_damping);
 Kernels kernels_avx512(Law, bool limit_damping);
+#endif
 
-Kernels kernels(Law law, bool limit_damping) {
+std::vector<std::string> instruction_sets() {
+  std::vector<std::string> names;
+#ifdef CDEM_X86_64
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
-    return kernels_avx512(law, limit_damping);
+    names.push_back("avx512");
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))
+    names.push_back("avx2");
+#endif
+  names.push_back("baseline");
+  return names;
+}
+
+Kernels kernels(Law law, bool limit_damping, [[maybe_unused]] const std::string &instructions) {
+#ifdef CDEM_X86_64
+  if (instructions == "avx512")
+    return kernels_avx512(law, limit_damping);
+  if (instructions == "avx2")
     return kernels_avx2(law, limit_damping);
+#endif
   return kernels_baseline(law, limit_damping);
 }
-#else
-Kernels kernels(Law law, bool limit_damping) { return kernels_baseline(law, limit_damping); }
-#endif
 
 } // namespace cdem

@@ -8,6 +8,9 @@
 #include "disc_motion.h"
 #include "force_slots.h"
 
+#include <string>
+#include <vector>
+
 namespace cdem {
 
 struct Kernels {
@@ -23,7 +26,10 @@ struct Kernels {
   void (*advance[2])(const SlotBlock &, Disc<double> *, Body *, const StepRule &, Fastest &);
 };
 
-// The fastest ones that this machine can run.
-Kernels kernels(Law, bool limit_damping);
+// Names of the instruction sets that this machine can run, the fastest first; the last is always "baseline".
+std::vector<std::string> instruction_sets();
+
+// Those of one of them.
+Kernels kernels(Law, bool limit_damping, const std::string &instructions);
 
 } // namespace cdem

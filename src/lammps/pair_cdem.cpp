@@ -62,6 +62,7 @@ void PairCDEM::allocate() {
 
 void PairCDEM::settings(int narg, char **arg) {
   bool law_given = false;
+  instructions = cdem::instruction_sets().front();
   for (int k = 0; k < narg; k += 2) {
     const std::string key = arg[k], value = k + 1 < narg ? arg[k + 1] : "nothing";
     if (key == "law") {
@@ -76,8 +77,14 @@ void PairCDEM::settings(int narg, char **arg) {
       if (value != "yes" && value != "no")
         error->all(FLERR, "Pair style cdem: limit_damping {}: must be yes or no", value);
       limit_damping = value == "yes";
+    } else if (key == "instructions") {
+      const std::vector<std::string> known = cdem::instruction_sets();
+      if (std::find(known.begin(), known.end(), value) == known.end())
+        error->all(FLERR, "Pair style cdem: instructions {}: this machine has {}", value,
+                   fmt::format("{}", fmt::join(known, ", ")));
+      instructions = value;
     } else {
-      error->all(FLERR, "Pair style cdem: unknown keyword {}; allowed: law, limit_damping", key);
+      error->all(FLERR, "Pair style cdem: unknown keyword {}; allowed: law, limit_damping, instructions", key);
     }
   }
   if (!law_given)
@@ -140,7 +147,7 @@ void PairCDEM::check_setting() const {
 void PairCDEM::init_style() {
   integrate = FixCDEMIntegrate::find(lmp);
   check_setting();
-  kernels = cdem::kernels(law, limit_damping);
+  kernels = cdem::kernels(law, limit_damping, instructions);
   rows.init(integrate, kernels);
   Shearbox::request_half_size_list(lmp, this, instance_me);
 
@@ -528,6 +535,7 @@ void PairCDEM::write_restart(FILE *fp) {
 
 void PairCDEM::read_restart(FILE *fp) {
   read_restart_settings(fp);
+  instructions = cdem::instruction_sets().front();
   allocate();
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// pair_style cdem law direct|incremental [limit_damping yes|no]
+// pair_style cdem law direct|incremental [limit_damping yes|no] [instructions avx512|avx2|baseline]
 // pair_coeff I J kn ks hn hs phi
 //
 // Contact law of discs, and of grains made of discs (fix cdem/shape), in the plane with accumulated tangential force,
@@ -7,6 +7,8 @@
 //
 //   law            direct: normal force from the overlap; incremental: summed from displacement increments (Cundall)
 //   limit_damping  yes: the normal force never pulls; no (default): the dashpot may pull as a contact opens
+//   instructions   instruction set of the loop over the contacts (default: the widest this machine has); avx512 and
+//                  avx2 give the same bits, baseline on x86-64 does not: it has no fused multiply-add
 //   kn, ks         normal and tangential stiffness, N/m; kn > 0, ks >= 0
 //   hn, hs         damping ratios of the pair, >= 0; the dashpot is 2 h sqrt(m k)
 //   phi            friction angle, degrees, 0 <= phi < 90
@@ -22,6 +24,7 @@
 
 #include "pair.h"
 
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -111,6 +114,7 @@ private:
 
   cdem::Law law = cdem::Law::direct;
   bool limit_damping = false;
+  std::string instructions;
   std::vector<std::vector<cdem::Material>> materials; // by the types of the two atoms
   std::vector<double> largest_radius;                 // by type
 

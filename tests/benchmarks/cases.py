@@ -26,6 +26,7 @@ class Bed:
     ranks: int = 1
     disc_steps: float = 6e7
     more: Mapping[str, object] = field(default_factory=dict)  # variables of scene.in
+    instructions: str = ""  # instruction set of ours; then the peers have no part
 
     @property
     def discs(self) -> int:
@@ -53,6 +54,8 @@ class Bed:
         if self.clumps:
             ours = job(CDEM, "cdem.in", "bed.restart", shape="triple", restart="1", **style)
             return [ours, job(STOCK, "stock_rigid.in", "rigid.data")]
+        if self.instructions:
+            return [job(CDEM, "cdem.in", "bed.data", options=f"instructions {self.instructions}", **style)]
         ours = job(CDEM, "cdem.in", "bed.data", **style)
         return [ours, job(STOCK, "stock.in", "bed.data"), job(LIGGGHTS, "liggghts.in", "bed.data")]
 
@@ -100,7 +103,8 @@ Scene = Bed | Shear
 
 def row_steps(wanted: float) -> int:
     """Steps of a row of shear.dat, rounded up as in input/shear.in."""
-    sample = int(np.ceil(wanted / 100))
+    samples = np.ceil(wanted / 25 if wanted < 2500 else 100)
+    sample = int(np.ceil(wanted / samples))
     return sample * int(np.ceil(wanted / sample))
 
 
@@ -112,9 +116,12 @@ CLUMPS: Mapping[str, float | str] = {"n": 500, "width": 0.1, "shape": "triple"}
 
 SHEAR = "shear test"
 BY_SIZE = ("1e3 discs", "1e4 discs", "1e5 discs", "1e6 discs")
+BY_WIDTH = {"1500 discs, baseline": 2, "1500 discs, avx2": 4, "1500 discs": 8}  # doubles in a vector
 BY_RANKS = ("1e5 discs", "1e5 discs, 2 ranks")
 SCENES: dict[str, Scene] = {
     "1500 discs": Bed(MIDDLE),
+    "1500 discs, avx2": Bed(MIDDLE, instructions="avx2"),
+    "1500 discs, baseline": Bed(MIDDLE, instructions="baseline"),
     "350 discs": Bed(SMALL),
     "9000 discs": Bed(LARGE),
     "500 grains of three discs": Bed(CLUMPS),

@@ -12,7 +12,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from engines import CDEM, LIGGGHTS, PHASES, STOCK, Sample
-from cases import BY_RANKS, BY_SIZE, SCENES
+from cases import BY_RANKS, BY_SIZE, BY_WIDTH, SCENES
 
 Samples = dict[str, list[Sample]]  # of a scene, by engine; the n-th of each were measured in turn
 PEERS = (STOCK, LIGGGHTS)
@@ -139,8 +139,11 @@ def plots(scenes: dict[str, Samples], folder: Path) -> None:
         old.unlink()
     curves(scenes, BY_SIZE, lambda name: SCENES[name].discs, "discs", folder / "by_size.svg")
     curves(scenes, BY_RANKS, lambda name: SCENES[name].ranks, "ranks", folder / "by_ranks.svg")
-    ratio_bars(scenes, folder / "ratios.svg")
-    phase_bars(scenes, folder / "phases.svg")
+    ours = {name: {CDEM: scenes[name][CDEM]} for name in BY_WIDTH if name in scenes}
+    curves(ours, BY_WIDTH, BY_WIDTH.__getitem__, "doubles in a vector", folder / "by_width.svg")
+    compared = {name: scene for name, scene in scenes.items() if len(scene) > 1}
+    ratio_bars(compared, folder / "ratios.svg")
+    phase_bars(compared, folder / "phases.svg")
 
 
 def save(figure: plt.Figure, file: Path) -> None:

@@ -48,6 +48,7 @@ CASES: dict[str, tuple[str, str, str]] = {
     "unknown law": ("law direct", "law hertz", r"Pair style cdem: law hertz"),
     "law without a value": ("law direct limit_damping no", "law", r"Pair style cdem: law nothing"),
     "unknown keyword of the pair style": ("limit_damping no", "damping no", r"Pair style cdem: unknown keyword damping"),
+    "instructions of no machine": ("limit_damping no", "instructions sse9", r"instructions sse9: this machine has .*baseline"),
     "limit_damping neither yes nor no": ("limit_damping no", "limit_damping 1", r"Pair style cdem: limit_damping 1"),
     "too few coefficients": ("0.215 0.215 27", "0.215 27", r"Pair coeff cdem has 6 arguments"),
     "too many coefficients": ("0.215 27", "0.215 27 1", r"Pair coeff cdem has 8 arguments"),

@@ -71,6 +71,17 @@ def test_run_style_cdem(tmp_path: Path, law: str, ranks: int, reference: Run) ->
     assert same(reference, out)
 
 
+@pytest.mark.parametrize("instructions", ["avx512", "avx2"])
+def test_vector_width(tmp_path: Path, law: str, instructions: str, reference: Run) -> None:
+    if instructions not in Path("/proc/cpuinfo").read_text():
+        pytest.skip(f"no {instructions} here")
+    deck = DECK.replace('"include ${decks}/start.in"', f'"include ${{decks}}/start.in" "pair_style cdem law ${{law}} '
+                        f'instructions {instructions}" "pair_coeff * * ${{kn}} ${{ks}} ${{hn}} ${{hs}} ${{phi}}"')  # fmt: skip
+    assert instructions in deck
+    discs, box = mini_box()
+    assert same(reference, run(deck, tmp_path, discs=discs, box=box, law=law))
+
+
 @pytest.mark.parametrize(("written_by", "read_by"), [(1, 4), (2, 1)])
 def test_run_style_cdem_restarts(tmp_path: Path, law: str, written_by: int, read_by: int, reference: Run) -> None:
     assert same(reference, mini(tmp_path, law, ranks=written_by, plan="write", style="verlet/cdem"))

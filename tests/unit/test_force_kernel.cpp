@@ -153,7 +153,7 @@ TEST(ForceKernel, BaselineHasTheBitsOfThePlainLoop) {
 TEST(ForceKernel, FusedOnesDifferByRoundingOnly) {
   Scene expected(1000, Law::direct), got(1000, Law::direct);
   expected.step(plain<Law::direct, false>());
-  got.step(kernels(Law::direct, false));
+  got.step(kernels(Law::direct, false, instruction_sets().front()));
   for (int i = 0; i < 1000; i++) {
     EXPECT_NEAR(expected.discs[i].vx, got.discs[i].vx, 1e-11) << i;
     EXPECT_NEAR(expected.discs[i].vy, got.discs[i].vy, 1e-11) << i;
