@@ -186,7 +186,6 @@ void PairCDEM::compute(int eflag, int vflag) {
     store_history();
     build_list();
   }
-  history_in_list = true;
   forces();
   if (evflag)
     tally();
@@ -214,6 +213,7 @@ void PairCDEM::pair_forces(int block) {
 }
 
 void PairCDEM::forces() {
+  history_in_list = true;
   for (int block = 0; block < slots.blocks(); block++) {
     const int begin = block_starts[block], end = block_starts[block + 1];
     pair_forces(block);

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from engines import CDEM, HERE, LIGGGHTS, ROOT, STOCK, Job, run_style, start
+from engines import CDEM, HERE, LIGGGHTS, ROOT, STOCK, Job, start
 
 AREAL_DENSITY = 26.5  # kg/m^2
 INPUT = ROOT / "input"
@@ -45,18 +45,17 @@ class Bed:
         folder = pack(self.bed, beds)
         steps = max(100, round(share * self.disc_steps / self.discs))
         shared = {"decks": HERE, "steps": steps, "nx": self.copies[0], "ny": self.copies[1], **self.more}
-        style = {"style": run_style()}
 
         def job(engine: str, deck: str, data: str, **variables: str) -> Job:
             values: dict[str, object] = {**shared, "data": folder / data, **variables}
             return Job(engine, HERE / deck, values, steps, self.discs, self.ranks)
 
         if self.clumps:
-            ours = job(CDEM, "cdem.in", "bed.restart", shape="triple", restart="1", **style)
+            ours = job(CDEM, "cdem.in", "bed.restart", shape="triple", restart="1")
             return [ours, job(STOCK, "stock_rigid.in", "rigid.data")]
         if self.instructions:
-            return [job(CDEM, "cdem.in", "bed.data", options=f"instructions {self.instructions}", **style)]
-        ours = job(CDEM, "cdem.in", "bed.data", **style)
+            return [job(CDEM, "cdem.in", "bed.data", options=f"instructions {self.instructions}")]
+        ours = job(CDEM, "cdem.in", "bed.data")
         return [ours, job(STOCK, "stock.in", "bed.data"), job(LIGGGHTS, "liggghts.in", "bed.data")]
 
 

@@ -17,7 +17,6 @@ CDEM, STOCK, LIGGGHTS = "cdem", "LAMMPS", "LIGGGHTS"
 PROGRAMS = {CDEM: str(ROOT / "build" / "lmp_cdem"), STOCK: "lmp", LIGGGHTS: "liggghts"}
 PACKAGES = {CDEM: "tools/setup", STOCK: "apt-get install lammps", LIGGGHTS: "apt-get install liggghts"}
 VERSIONS = {CDEM: r"Shearbox (.*)", STOCK: r"LAMMPS \((.*)\)", LIGGGHTS: r"LIGGGHTS-PUBLIC ([^,]*)"}
-OWN_RUN_STYLE = "verlet/cdem"
 PHASES = ("pair", "neigh", "comm", "output", "modify", "other")
 
 ENVIRONMENT = os.environ | {
@@ -70,12 +69,6 @@ class Sample:
 def installed(engine: str) -> bool:
     """Whether the engine's program is there."""
     return shutil.which(PROGRAMS[engine]) is not None
-
-
-def run_style() -> str:
-    """The run style of lmp_cdem: its own if it has one. (LAMMPS calls an unknown style an error instead of saying no.)"""
-    question = f"variable there equal is_available(integrate,{OWN_RUN_STYLE})\nprint ${{there}}\n"
-    return "verlet" if ask(CDEM, question)[0] else OWN_RUN_STYLE
 
 
 def version(engine: str) -> str:

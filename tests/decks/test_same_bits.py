@@ -71,6 +71,11 @@ def test_run_style_cdem(tmp_path: Path, law: str, ranks: int, reference: Run) ->
     assert same(reference, out)
 
 
+@pytest.mark.parametrize("style", ["verlet", "verlet/cdem"])
+def test_a_run_without_setup(tmp_path: Path, law: str, ranks: int, style: str, reference: Run) -> None:
+    assert same(reference, mini(tmp_path, law, ranks=ranks, plan="resumed", style=style))
+
+
 @pytest.mark.parametrize("instructions", ["avx512", "avx2"])
 def test_vector_width(tmp_path: Path, law: str, instructions: str, reference: Run) -> None:
     if instructions not in Path("/proc/cpuinfo").read_text():
