@@ -66,6 +66,11 @@ template <class Visit> [[gnu::always_inline]] inline void for_each_sum(const Slo
     }
 }
 
+// The block k that a row is in: starts[k] <= row < starts[k+1].
+inline int block_of(const std::vector<int> &starts, int row) {
+  return int(std::upper_bound(starts.begin(), starts.end(), row) - starts.begin()) - 1;
+}
+
 class ForceSlots {
 public:
   // Rows starts[k] ... starts[k+1]-1 are block k. before(p, q) orders the pairs of a disc by the disc on the other
@@ -196,10 +201,6 @@ private:
         next += counts[order[d]];
       }
     }
-  }
-
-  static int block_of(const std::vector<int> &starts, int row) {
-    return int(std::upper_bound(starts.begin(), starts.end(), row) - starts.begin()) - 1;
   }
 
   Column<Forces<double>> slots;

@@ -40,11 +40,11 @@ inline bool any(bool condition) { return condition; }
 // a b + c, rounded once where the machine has an instruction for it. x86-64 has none in its baseline: there the last
 // bits are those of two roundings.
 #if defined(__FMA__) || defined(__ARM_FEATURE_FMA)
-inline double fused(double a, double b, double c) { return __builtin_fma(a, b, c); }
-inline double fused_minus(double a, double b, double c) { return __builtin_fma(a, b, -c); }
+[[gnu::always_inline]] inline double fused(double a, double b, double c) { return __builtin_fma(a, b, c); }
+[[gnu::always_inline]] inline double fused_minus(double a, double b, double c) { return __builtin_fma(a, b, -c); }
 #else
-inline double fused(double a, double b, double c) { return a * b + c; }
-inline double fused_minus(double a, double b, double c) { return a * b - c; }
+[[gnu::always_inline]] inline double fused(double a, double b, double c) { return a * b + c; }
+[[gnu::always_inline]] inline double fused_minus(double a, double b, double c) { return a * b - c; }
 #endif
 
 #ifdef CDEM_HAS_SIMD

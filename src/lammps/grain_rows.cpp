@@ -106,17 +106,23 @@ void GrainRows::expand(int begin, int end) {
     kernels.expand(columns(), begin, end, update->setupflag ? 0 : 0.5 * update->dt);
 }
 
-void GrainRows::sum_block(const cdem::SlotBlock &block, int first_grain, int end_grain) {
+int GrainRows::make_sums(int first_grain, int end_grain) {
   first_summed = rows_of(first_grain);
-  sums.resize(rows_of(end_grain) - first_summed);
+  const int n = rows_of(end_grain) - first_summed;
+  if (int(sums.size()) < n) // never shrinks: this is called in every step
+    sums.resize(n);
+  return n;
+}
+
+void GrainRows::sum_block(const cdem::SlotBlock &block, int first_grain, int end_grain) {
+  make_sums(first_grain, end_grain);
   kernels.sum(block, sums.data(), first_summed);
 }
 
 void GrainRows::sum_grain(const cdem::ForceSlots &slots, int i) {
-  first_summed = rows_of(i);
-  sums.resize(rows_of(i + 1) - first_summed);
-  for (std::size_t k = 0; k < sums.size(); k++)
-    cdem::store_raw(&sums[k].fx, slots.sum(first_summed + int(k)));
+  const int n = make_sums(i, i + 1);
+  for (int k = 0; k < n; k++)
+    cdem::store_raw(&sums[k].fx, slots.sum(first_summed + k));
 }
 
 cdem::DiscForce GrainRows::force_on(int i) {

@@ -64,6 +64,7 @@ public:
 
 private:
   void fill_grain(int i, double forward);
+  int make_sums(int first_grain, int end_grain); // room for the sums of their discs; how many these are
   void expand(int begin, int end);
   cdem::ClumpColumns columns();
 

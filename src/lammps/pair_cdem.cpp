@@ -352,8 +352,7 @@ void PairCDEM::find_pairs() {
   auto segment_of = [&](int p, int q) {
     const int i = rows.grain(p), j = rows.grain(q);
     const auto [low, high] = std::minmax(atom->type[i], atom->type[j]);
-    const auto after = std::upper_bound(block_starts.begin(), block_starts.end(), std::min(i, j));
-    return (int(after - block_starts.begin() - 1) * types + low) * types + high;
+    return (cdem::block_of(block_starts, std::min(i, j)) * types + low) * types + high;
   };
 
   std::vector<int> sizes(by_types.size() * (block_starts.size() - 1), 0), next(sizes.size(), 0);
