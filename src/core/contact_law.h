@@ -68,14 +68,14 @@ template <class T> inline Forces<T> opposite(const Forces<T> &f) { return {-f.fx
 // that of the centres, less that of the rims by the spin = omega_a l_a + omega_b l_b, l the lever arms.
 template <class T> struct Approach { T n, t; };
 
-// The slip of a step over dt, for the spring. It was made about the distance and the normal of the middle of the step,
-// while `half` is taken about those of its end. The difference is of first order in dt; this removes it, and leaves
-// exactly 0 where the two discs turn as one body. `across` is the part of half.t that is not spin.
+// Displacement of a step over dt. It was made about the distance and the normal of the middle of the step, while `half`
+// is taken about those of its end. The difference is of first order in dt; this removes it, and leaves exactly no slip
+// where the two discs turn as one body. `across` is the part of half.t that is not spin.
 template <class T>
-inline T slip_velocity(const Approach<T> &half, T across, T omega_sum, T inverse_distance, double dt) {
+inline Approach<T> of_step(const Approach<T> &half, T across, T omega_sum, T inverse_distance, double dt) {
   const T turning = across * inverse_distance;
-  const T middle = fused(T(-0.5 * dt) * across, turning, half.n); // approach in the middle of the step
-  return fused(T(0.25 * dt) * middle, fused(T(2), turning, omega_sum), half.t);
+  const T n = fused(T(-0.5 * dt) * across, turning, half.n);
+  return {n, fused(T(0.25 * dt) * n, fused(T(2), turning, omega_sum), half.t)};
 }
 
 // The part of the step behind that a pair was in contact, as it enters the forces now.
@@ -100,11 +100,32 @@ template <class T> inline Presence<T> presence(T overlap, T un_half, double dt) 
   return {select(changed, in_contact, T(1)), select(changed, in_contact + select(touch, T(0.5), T(-0.5)), plain)};
 }
 
+// What the friction and the dashpots of a pair have taken out (J), if somebody keeps books. The time integration gives
+// the bodies the mean of the forces at the two ends of each step times its displacement as work, and so do the books.
+template <class T> struct Losses {
+  T friction, dashpots;
+  T dashpot_n, dashpot_t; // the dashpots' forces at the beginning of the step (N)
+};
+struct NoLosses {};
+
+// In a step with these velocities. The spring of a contact that slides is stretched to `trial`, and then gives way.
+template <class T>
+inline void book(Losses<T> &l, const Approach<T> &step, const Approach<T> &dashpot, T es_before, T trial, T es,
+                 const Material &m, double dt) {
+  const T n = l.dashpot_n + dashpot.n, t = l.dashpot_t + dashpot.t;
+  l.dashpots = fused(T(-0.5 * dt), fused(n, step.n, t * step.t), l.dashpots);
+  l.friction = fused(T(m.ks > 0 ? 0.5 / m.ks : 0) * (es_before + es), trial - es, l.friction);
+  l.dashpot_n = dashpot.n;
+  l.dashpot_t = dashpot.t;
+}
+template <class T>
+inline void book(NoLosses &, const Approach<T> &, const Approach<T> &, T, T, T, const Material &, double) {}
+
 // The force of a pair, and its history brought forward by the displacement of a step of length dt. With dt = 0 it is
 // the force of the present state, and the history stays as it is.
-template <Law law, bool limit_damping, class T>
+template <Law law, bool limit_damping, class T, class Books>
 [[gnu::always_inline]] inline Forces<T> contact_force(const Relative<T> &u, const Pair<T> &pair, const Material &m,
-                                                      double dt, History<T> &history) {
+                                                      double dt, History<T> &history, Books &books) {
   const T distance = square_root(fused(u.x, u.x, u.y * u.y)), inverse = T(1) / distance;
   const T overlap = pair.radius_sum - distance;
   const auto touch = overlap > T(0);
@@ -127,8 +148,8 @@ template <Law law, bool limit_damping, class T>
 
   // Apart, the limit is 0, which clears the history.
   const T limit = law == Law::direct ? T(m.mu) * en : T(m.mu) * select(en > T(0), en, T(0));
-  const T slip = slip_velocity<T>(half, across_half, u.omega_half_a + u.omega_half_b, inverse, dt);
-  const T trial = fused(T(-m.ks * dt) * slip, share.spring, history.es);
+  const Approach<T> step = of_step<T>(half, across_half, u.omega_half_a + u.omega_half_b, inverse, dt);
+  const T es_before = history.es, trial = fused(T(-m.ks * dt) * step.t, share.spring, es_before);
   const auto slides = magnitude(trial) >= limit;
   const T es = select(slides, with_sign_of(limit, trial), trial);
   history.es = es;
@@ -138,7 +159,15 @@ template <Law law, bool limit_damping, class T>
   if constexpr (limit_damping)
     fn = select(touch && fn > T(0), fn, T(0));
   const T ft = select(slides, es, fused(T(-m.ds) * dashpot, now.t, es)), back = -ft;
+  book(books, step, {fn - en, ft - es}, es_before, trial, es, m, dt);
   return {fused(fn, nx, back * ny), fused(fn, ny, ft * nx), back * lever_a, back * lever_b};
+}
+
+template <Law law, bool limit_damping, class T>
+inline Forces<T> contact_force(const Relative<T> &u, const Pair<T> &pair, const Material &m, double dt,
+                               History<T> &history) {
+  NoLosses none;
+  return contact_force<law, limit_damping, T>(u, pair, m, dt, history, none);
 }
 
 } // namespace cdem

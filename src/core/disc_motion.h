@@ -9,9 +9,9 @@
 
 namespace cdem {
 
-// What the motion needs beside the row. A wall has inverse 0.
+// What the motion needs beside the row.
 struct alignas(4 * sizeof(double)) Body {
-  double angle, mass; // mass: that gravity and drag act on
+  double angle, mass;
   double inverse_mass, inverse_inertia;
 };
 
@@ -20,6 +20,19 @@ struct StepRule {
   double forward;        // by how far the dashpots' velocity is ahead of the half step's (s), see stability.h
   double gx = 0, gy = 0; // gravity
   double drag = 0;       // deceleration over velocity (1/s), that of the half step
+
+  bool has_body_forces() const { return gx != 0 || gy != 0 || drag != 0; }
+};
+
+// How far a grain has gone, and how much it has turned, step by step whatever the direction.
+struct alignas(2 * sizeof(double)) Travel {
+  double path = 0, turned = 0; // m, rad
+
+  // By a step with these velocities.
+  [[gnu::always_inline]] void add(double vx, double vy, double omega, double dt) {
+    const Two squares{vx * vx + vy * vy, omega * omega};
+    store_raw(&path, load_raw<Two>(&path) + dt * square_root(squares));
+  }
 };
 
 struct DiscForce {
@@ -39,10 +52,11 @@ struct Fastest {
   double speed(double reach) const { return std::sqrt(vx2 + vy2) + reach * std::sqrt(omega2); }
 };
 
-// `sum` is fx, fy, torque, and a value without a use. body_forces: whether there are gravity and drag.
+// `sum` is fx, fy, torque, and a value without a use. body_forces: whether there are gravity and drag. `travel` may be
+// null.
 template <bool body_forces>
 [[gnu::always_inline]] inline void advance(Disc<double> &disc, Body &body, Four sum, const StepRule &step,
-                                           Four &fastest) {
+                                           Four &fastest, Travel *travel) {
   const double half = 0.5 * step.dt;
   const Four place = load_raw<Four>(&disc.x), motion = load_raw<Four>(&disc.vx), of_body = load_raw<Four>(&body.angle);
 
@@ -60,6 +74,8 @@ template <bool body_forces>
   body.angle = x[2];
   const Four squares = v * v;
   fastest = fastest > squares ? fastest : squares;
+  if (travel)
+    travel->add(v[0], v[1], v[2], step.dt);
 }
 
 } // namespace cdem

@@ -17,6 +17,7 @@ struct PairColumns {
   const double *radius_sum, *half_difference, *root_mass;
   double *es, *en;
   Forces<double> *slots;
+  double *friction, *dashpots, *dashpot_n, *dashpot_t; // see Losses
 };
 
 struct DiscPairs {
@@ -35,11 +36,12 @@ struct DiscPairs {
   Column<int> a, b;           // rows of the two discs; a belongs to the grain of the lower id
   Column<int> slot_a, slot_b; // where their forces go, see force_slots.h
   Column<double> radius_sum, half_difference, root_mass;
-  Column<double> es, en;        // en: of the incremental law only
-  Column<Forces<double>> force; // of the last step that was kept, see ForceSlots::of_pair
+  Column<double> es, en;                                   // en: of the incremental law only
+  Column<double> friction, dashpots, dashpot_n, dashpot_t; // see Losses; empty unless there are books
+  Column<Forces<double>> force;                            // of the last step that was kept, see ForceSlots::of_pair
 
   // Makes room for segments of these sizes, by block and material, all entries zero.
-  void lay_out(const std::vector<Material> &materials, const std::vector<int> &sizes, Law law) {
+  void lay_out(const std::vector<Material> &materials, const std::vector<int> &sizes, Law law, bool books = false) {
     segments.clear();
     first_segment.assign(1, 0);
     int next = 0;
@@ -56,6 +58,8 @@ struct DiscPairs {
     for (auto *column : {&radius_sum, &half_difference, &root_mass, &es})
       column->reset(next);
     en.reset(law == Law::incremental ? next : 0);
+    for (auto *column : {&friction, &dashpots, &dashpot_n, &dashpot_t})
+      column->reset(books ? next : 0);
     force.reset(next);
   }
 
@@ -67,13 +71,15 @@ struct DiscPairs {
   }
 
   PairColumns columns(Forces<double> *slots) {
-    return {a.data(),         b.data(),  slot_a.data(), slot_b.data(), radius_sum.data(), half_difference.data(),
-            root_mass.data(), es.data(), en.data(),     slots};
+    return {a.data(),         b.data(),        slot_a.data(), slot_b.data(), radius_sum.data(), half_difference.data(),
+            root_mass.data(), es.data(),       en.data(),     slots,         friction.data(),   dashpots.data(),
+            dashpot_n.data(), dashpot_t.data()};
   }
 
   double bytes() const {
     return double(a.capacity()) * 4 * sizeof(int) + double(es.capacity()) * 4 * sizeof(double) +
-           double(en.capacity()) * sizeof(double) + double(force.capacity()) * sizeof(Forces<double>);
+           double(en.capacity() + 4 * friction.capacity()) * sizeof(double) +
+           double(force.capacity()) * sizeof(Forces<double>);
   }
 };
 

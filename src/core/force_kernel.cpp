@@ -3,10 +3,10 @@
 
 namespace cdem {
 
-Kernels kernels_baseline(Law, bool limit_damping);
+Kernels kernels_baseline(const ContactRules &);
 #ifdef CDEM_X86_64
-Kernels kernels_avx2(Law, bool limit_damping);
-Kernels kernels_avx512(Law, bool limit_damping);
+Kernels kernels_avx2(const ContactRules &);
+Kernels kernels_avx512(const ContactRules &);
 #endif
 
 std::vector<std::string> instruction_sets() {
@@ -22,14 +22,14 @@ std::vector<std::string> instruction_sets() {
   return names;
 }
 
-Kernels kernels(Law law, bool limit_damping, [[maybe_unused]] const std::string &instructions) {
+Kernels kernels(const ContactRules &rules, [[maybe_unused]] const std::string &instructions) {
 #ifdef CDEM_X86_64
   if (instructions == "avx512")
-    return kernels_avx512(law, limit_damping);
+    return kernels_avx512(rules);
   if (instructions == "avx2")
-    return kernels_avx2(law, limit_damping);
+    return kernels_avx2(rules);
 #endif
-  return kernels_baseline(law, limit_damping);
+  return kernels_baseline(rules);
 }
 
 } // namespace cdem

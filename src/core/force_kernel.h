@@ -13,6 +13,13 @@
 
 namespace cdem {
 
+// What a loop over pairs is compiled for.
+struct ContactRules {
+  Law law = Law::direct;
+  bool limit_damping = false;
+  bool books = false; // of losses
+};
+
 struct Kernels {
   // The forces of pairs begin ... end-1, all of one material, begin a multiple of DiscPairs::LANES.
   void (*forces)(const Disc<double> *discs, const PairColumns &, const Material &, int begin, int end, double dt);
@@ -20,16 +27,17 @@ struct Kernels {
   void (*sum)(const SlotBlock &, Forces<double> *sums, int first);
   // Places the discs of grains begin ... end-1; half_step as in clump_motion.h.
   void (*expand)(const ClumpColumns &, int begin, int end, double half_step);
-  // Moves such grains by a step, once the forces on their discs are summed: without and with gravity and drag.
-  void (*advance_clumps[2])(const ClumpColumns &, int begin, int end, const StepRule &, Fastest &);
-  // Sums the forces of a block's discs, and moves these by a step: without and with gravity and drag.
-  void (*advance[2])(const SlotBlock &, Disc<double> *, Body *, const StepRule &, Fastest &);
+  // Moves those of them that are no walls by a step, once the forces on their discs are summed. The last argument, one
+  // for each grain, may be null; so below.
+  void (*advance_clumps)(const ClumpColumns &, int begin, int end, const StepRule &, Fastest &, Travel *);
+  // Sums the forces of a block's discs, and moves these by a step, but for walls.
+  void (*advance)(const SlotBlock &, Disc<double> *, Body *, const StepRule &, Fastest &, Travel *);
 };
 
 // Names of the instruction sets that this machine can run, the fastest first; the last is always "baseline".
 std::vector<std::string> instruction_sets();
 
 // Those of one of them.
-Kernels kernels(Law, bool limit_damping, const std::string &instructions);
+Kernels kernels(const ContactRules &, const std::string &instructions);
 
 } // namespace cdem

@@ -2,6 +2,6 @@
 #include "force_kernel_isa.h"
 
 namespace cdem {
-Kernels kernels_avx2(Law, bool limit_damping);
-Kernels kernels_avx2(Law law, bool limit_damping) { return widest_kernels(law, limit_damping); }
+Kernels kernels_avx2(const ContactRules &);
+Kernels kernels_avx2(const ContactRules &rules) { return widest_kernels(rules); }
 } // namespace cdem

@@ -2,6 +2,6 @@
 #include "force_kernel_isa.h"
 
 namespace cdem {
-Kernels kernels_baseline(Law, bool limit_damping);
-Kernels kernels_baseline(Law law, bool limit_damping) { return widest_kernels(law, limit_damping); }
+Kernels kernels_baseline(const ContactRules &);
+Kernels kernels_baseline(const ContactRules &rules) { return widest_kernels(rules); }
 } // namespace cdem

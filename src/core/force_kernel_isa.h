@@ -16,7 +16,20 @@ using Widest = double;
 constexpr int WIDTH = 1;
 #endif
 
-template <Law law, bool limit_damping, class T>
+template <class T> NoLosses load_losses(const PairColumns &, int, NoLosses) { return {}; }
+template <class T> Losses<T> load_losses(const PairColumns &p, int k, Losses<T>) {
+  return {load(p.friction + k, T()), load(p.dashpots + k, T()), load(p.dashpot_n + k, T()), load(p.dashpot_t + k, T())};
+}
+
+void store_losses(const PairColumns &, int, const NoLosses &) {}
+template <class T> void store_losses(const PairColumns &p, int k, const Losses<T> &l) {
+  store(p.friction + k, l.friction);
+  store(p.dashpots + k, l.dashpots);
+  store(p.dashpot_n + k, l.dashpot_n);
+  store(p.dashpot_t + k, l.dashpot_t);
+}
+
+template <Law law, bool limit_damping, class Books, class T>
 void forces(const Disc<double> *discs, const PairColumns &columns, const Material &material, int begin, int end,
             double dt) {
   const PairColumns p = columns; // copies: what is stored below could otherwise change them
@@ -27,8 +40,10 @@ void forces(const Disc<double> *discs, const PairColumns &columns, const Materia
     if constexpr (law == Law::incremental)
       history.en = load(p.en + k, T());
     const Relative<T> relative = load_relative(discs, p.a + k, p.b + k, T());
+    Books books = load_losses<T>(p, k, Books());
     store_forces(p.slots, p.slot_a + k, p.slot_b + k,
-                 contact_force<law, limit_damping, T>(relative, pair, m, dt, history));
+                 contact_force<law, limit_damping, T>(relative, pair, m, dt, history, books));
+    store_losses(p, k, books);
     store(p.es + k, history.es);
     if constexpr (law == Law::incremental)
       store(p.en + k, history.en);
@@ -36,15 +51,28 @@ void forces(const Disc<double> *discs, const PairColumns &columns, const Materia
 }
 
 void sum(const SlotBlock &block, Forces<double> *sums, int first) {
-  for_each_sum(block, [=](int disc, Four sum) { store_raw(&sums[disc - first].fx, sum); });
+  for_each_sum(block, block.end, [=](int disc, Four sum) { store_raw(&sums[disc - first].fx, sum); });
 }
 
-template <bool body_forces>
-void advance_block(const SlotBlock &block, Disc<double> *discs, Body *bodies, const StepRule &step, Fastest &fastest) {
-  Four squares{};
-  const StepRule s = step;
-  for_each_sum(block, [&](int disc, Four sum) { advance<body_forces>(discs[disc], bodies[disc], sum, s, squares); });
-  fastest.see(squares);
+// Calls loop(body_forces, travels) with what it is to know when it is compiled.
+template <class Loop> [[gnu::always_inline]] inline void choose(const StepRule &step, const Travel *travel, Loop loop) {
+  using std::false_type, std::true_type;
+  if (step.has_body_forces())
+    travel ? loop(true_type(), true_type()) : loop(true_type(), false_type());
+  else
+    travel ? loop(false_type(), true_type()) : loop(false_type(), false_type());
+}
+
+void advance_block(const SlotBlock &block, Disc<double> *discs, Body *bodies, const StepRule &step, Fastest &fastest,
+                   Travel *travel) {
+  choose(step, travel, [&](auto body_forces, auto travels) {
+    Four squares{};
+    const StepRule s = step;
+    for_each_sum(block, block.end_of_grains, [&](int disc, Four sum) {
+      advance<body_forces>(discs[disc], bodies[disc], sum, s, squares, travels ? travel + disc : nullptr);
+    });
+    fastest.see(squares);
+  });
 }
 
 void expand_clumps(const ClumpColumns &columns, int begin, int end, double half_step) {
@@ -52,28 +80,33 @@ void expand_clumps(const ClumpColumns &columns, int begin, int end, double half_
   expand(c, begin, end, half_step);
 }
 
-template <bool body_forces>
-void advance_clumps(const ClumpColumns &columns, int begin, int end, const StepRule &step, Fastest &fastest) {
-  Four squares{};
-  const ClumpColumns c = columns;
-  const StepRule s = step;
-  for (int i = begin; i < end; i++)
-    advance<body_forces>(c.grains[i], c.bodies[i], force_on(c, i), s, squares);
-  fastest.see(squares);
-  expand(c, begin, end, 0.5 * s.dt);
+void advance_clumps(const ClumpColumns &columns, int begin, int end, const StepRule &step, Fastest &fastest,
+                    Travel *travel) {
+  choose(step, travel, [&](auto body_forces, auto travels) {
+    Four squares{};
+    const ClumpColumns c = columns;
+    const StepRule s = step;
+    for (int i = begin; i < end; i++)
+      if (c.bodies[i].inverse_mass != 0)
+        advance<body_forces>(c.grains[i], c.bodies[i], force_on(c, i), s, squares, travels ? travel + i : nullptr);
+    fastest.see(squares);
+    expand(c, begin, end, 0.5 * s.dt);
+  });
 }
 
-Kernels widest_kernels(Law law, bool limit_damping) {
-  Kernels k{nullptr,
-            sum,
-            expand_clumps,
-            {advance_clumps<false>, advance_clumps<true>},
-            {advance_block<false>, advance_block<true>}};
-  if (law == Law::direct)
-    k.forces = limit_damping ? forces<Law::direct, true, Widest> : forces<Law::direct, false, Widest>;
-  else
-    k.forces = limit_damping ? forces<Law::incremental, true, Widest> : forces<Law::incremental, false, Widest>;
-  return k;
+template <Law law, class Books> auto forces_of(bool limit_damping) {
+  return limit_damping ? forces<law, true, Books, Widest> : forces<law, false, Books, Widest>;
+}
+
+template <class Books> auto forces_of(Law law, bool limit_damping) {
+  return law == Law::direct ? forces_of<Law::direct, Books>(limit_damping)
+                            : forces_of<Law::incremental, Books>(limit_damping);
+}
+
+Kernels widest_kernels(const ContactRules &rules) {
+  return {rules.books ? forces_of<Losses<Widest>>(rules.law, rules.limit_damping)
+                      : forces_of<NoLosses>(rules.law, rules.limit_damping),
+          sum, expand_clumps, advance_clumps, advance_block};
 }
 
 } // namespace

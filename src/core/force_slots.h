@@ -19,11 +19,11 @@ struct SlotRun {
   int count, begin, end;
 };
 
-// The sums of a block of discs; `slots` is its first.
+// The sums of a block of discs, those of walls last; `slots` is its first.
 struct SlotBlock {
   const Forces<double> *slots;
   const int *order;
-  const SlotRun *begin, *end;
+  const SlotRun *begin, *end_of_grains, *end;
 };
 
 // The discs of one run; with a count that the compiler knows there is no loop left.
@@ -40,11 +40,12 @@ template <int known_count, class Visit>
   return slot;
 }
 
-// Calls visit(disc, sum of its forces) for the discs of a block.
-template <class Visit> [[gnu::always_inline]] inline void for_each_sum(const SlotBlock &block, Visit visit) {
+// Calls visit(disc, sum of its forces) for the discs of a block, up to one of its two ends.
+template <class Visit>
+[[gnu::always_inline]] inline void for_each_sum(const SlotBlock &block, const SlotRun *end, Visit visit) {
   const double *slot = &block.slots->fx;
   const int *const order = block.order;
-  for (const SlotRun *run = block.begin; run != block.end; ++run)
+  for (const SlotRun *run = block.begin; run != end; ++run)
     switch (run->count) { // discs of similar size in two dimensions have no more than six contacts
     case 2:
       slot = for_each_sum<2>(*run, order, slot, visit);
@@ -75,10 +76,11 @@ class ForceSlots {
 public:
   // Rows starts[k] ... starts[k+1]-1 are block k. before(p, q) orders the pairs of a disc by the disc on the other
   // side.
-  template <class Before> void build(DiscPairs &pairs, const std::vector<int> &starts, Before before) {
+  template <class Before, class IsWall>
+  void build(DiscPairs &pairs, const std::vector<int> &starts, Before before, IsWall is_wall) {
     const int n = starts.back();
     count_slots(pairs, n);
-    sort_by_count(starts);
+    make_runs(starts, is_wall);
     assign_slots(pairs, starts);
     pair_of_slot.resize(total);
     std::vector<int> next = first_pair;
@@ -120,7 +122,7 @@ public:
   int blocks() const { return int(first_run.size()) - 1; }
   SlotBlock block(int k) const {
     const SlotRun *const run = runs.data();
-    return {&slots[block_slot[k]], order.data(), run + first_run[k], run + first_run[k + 1]};
+    return {&slots[block_slot[k]], order.data(), run + first_run[k], run + first_wall_run[k], run + first_run[k + 1]};
   }
   Forces<double> *data() { return slots.data(); }
 
@@ -149,21 +151,30 @@ private:
     }
   }
 
-  void sort_by_count(const std::vector<int> &starts) {
+  // In each block grains before walls, and those with equally many slots together.
+  template <class IsWall> void make_runs(const std::vector<int> &starts, IsWall is_wall) {
     order.resize(starts.back());
+    for (std::size_t row = 0; row < order.size(); row++)
+      order[row] = int(row);
     runs.clear();
     first_run.assign(1, 0);
+    first_wall_run.clear();
     for (std::size_t k = 0; k + 1 < starts.size(); k++) {
-      for (int row = starts[k]; row < starts[k + 1]; row++)
-        order[row] = row;
-      std::stable_sort(order.begin() + starts[k], order.begin() + starts[k + 1],
-                       [&](int p, int q) { return counts[p] < counts[q]; });
-      for (int d = starts[k]; d < starts[k + 1]; d++) {
-        if (d == starts[k] || runs.back().count != counts[order[d]])
-          runs.push_back({counts[order[d]], d, d});
-        runs.back().end++;
-      }
+      const auto begin = order.begin() + starts[k], end = order.begin() + starts[k + 1];
+      const auto walls = std::stable_partition(begin, end, [&](int row) { return !is_wall(row); });
+      add_runs(int(begin - order.begin()), int(walls - order.begin()));
+      first_wall_run.push_back(int(runs.size()));
+      add_runs(int(walls - order.begin()), int(end - order.begin()));
       first_run.push_back(int(runs.size()));
+    }
+  }
+
+  void add_runs(int begin, int end) {
+    std::stable_sort(order.begin() + begin, order.begin() + end, [&](int p, int q) { return counts[p] < counts[q]; });
+    for (int d = begin; d < end; d++) {
+      if (d == begin || runs.back().count != counts[order[d]])
+        runs.push_back({counts[order[d]], d, d});
+      runs.back().end++;
     }
   }
 
@@ -209,7 +220,7 @@ private:
   std::vector<int> first_slot, first_pair, counts; // of each disc: its first slot, and its pairs in order
   std::vector<int> pair_of_slot;
   std::vector<SlotRun> runs;
-  std::vector<int> first_run, block_slot; // of each block
+  std::vector<int> first_run, first_wall_run, block_slot; // of each block
 };
 
 } // namespace cdem

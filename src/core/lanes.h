@@ -31,6 +31,17 @@ template <class R> [[gnu::always_inline]] inline R load_raw(const double *from) 
 }
 template <class R> [[gnu::always_inline]] inline void store_raw(double *to, R r) { std::memcpy(to, &r, sizeof(r)); }
 
+// The compiler makes two of it, with a branch each.
+[[gnu::always_inline]] inline Two square_root(Two x) {
+#if defined(__x86_64__)
+  return _mm_sqrt_pd(x);
+#elif defined(__aarch64__)
+  return (Two)vsqrtq_f64((float64x2_t)x);
+#else
+  return Two{std::sqrt(x[0]), std::sqrt(x[1])};
+#endif
+}
+
 inline double select(bool condition, double yes, double no) { return condition ? yes : no; }
 inline double square_root(double x) { return std::sqrt(x); }
 inline double magnitude(double x) { return std::fabs(x); }

@@ -1,33 +1,58 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_cdem_energy.h"
 
+#include "compat.h"
+#include "fix_cdem_audit.h"
+#include "fix_cdem_integrate.h"
 #include "fix_cdem_shape.h"
 #include "pair_cdem.h"
 
 #include "atom.h"
+#include "domain.h"
 #include "error.h"
 #include "force.h"
+#include "modify.h"
 #include "update.h"
 
-#include <numeric>
+#include <cstring>
+#include <string>
 
 using namespace LAMMPS_NS;
 
 ComputeCDEMEnergy::ComputeCDEMEnergy(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg) {
-  if (narg != 3)
-    error->all(FLERR, "Compute cdem/energy {}: unknown argument {}; it takes none", id, arg[3]);
+  bool audits = false;
+  for (int iarg = 3; iarg < narg; iarg += 2) {
+    const std::string value = iarg + 1 < narg ? arg[iarg + 1] : "nothing";
+    if (strcmp(arg[iarg], "audit") != 0)
+      error->all(FLERR, "Compute cdem/energy {}: unknown argument {}; allowed: audit yes|no", id, arg[iarg]);
+    if (value != "yes" && value != "no")
+      error->all(FLERR, "Compute cdem/energy {}: audit {}: must be yes or no", id, value);
+    audits = value == "yes";
+  }
   if (!atom->sphere_flag)
     error->all(FLERR, "Compute cdem/energy {} needs atom_style sphere", id);
+  if (audits) {
+    if (FixCDEMAudit::find(lmp))
+      error->all(FLERR, "Compute cdem/energy {}: there is one with an audit already", id);
+    audit = static_cast<FixCDEMAudit *>(modify->add_fix(std::string(FixCDEMAudit::ID) + " all cdem/audit"));
+    audit->compute = this;
+  }
   scalar_flag = vector_flag = 1;
   extscalar = extvector = 1;
-  size_vector = NPARTS;
+  size_vector = audits ? int(NALL) : int(NPARTS);
   vector = energy.data();
+}
+
+ComputeCDEMEnergy::~ComputeCDEMEnergy() {
+  if (audit && Shearbox::fix_by_id(lmp, FixCDEMAudit::ID))
+    modify->delete_fix(FixCDEMAudit::ID); // at the end LAMMPS deletes fixes before computes
 }
 
 void ComputeCDEMEnergy::init() {
   pair = dynamic_cast<PairCDEM *>(force->pair);
   if (!pair)
     error->all(FLERR, "Compute cdem/energy {} needs pair_style cdem", id);
+  integrate = FixCDEMIntegrate::find(lmp);
   inertia.assign(1, 0);
   for (int type = 1; type <= atom->ntypes; type++)
     inertia.push_back(FixCDEMShape::shape(lmp, type).inertia());
@@ -44,13 +69,60 @@ void ComputeCDEMEnergy::compute_vector() {
     mine[TRANSLATION] += 0.5 * m * (v[0] * v[0] + v[1] * v[1]);
     mine[ROTATION] += 0.5 * (inertia[atom->type[i]] * m * r * r) * omega * omega;
   }
-  mine[SPRINGS] = pair->elastic_energy();
+  const auto [normal, tangential] = pair->spring_energy();
+  mine[SPRINGS] = normal + tangential;
   MPI_Allreduce(mine.data(), energy.data(), NPARTS, MPI_DOUBLE, MPI_SUM, world);
+  if (audit)
+    keep_books();
+}
+
+ComputeCDEMEnergy::State ComputeCDEMEnergy::state() const {
+  const cdem::StepRule step = integrate->step_rule();
+  const auto [normal, tangential] = pair->spring_energy();
+  double mine[4] = {0, normal + tangential, tangential, 0}, all[4];
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!integrate->is_free(i))
+      continue;
+    const double m = atom->rmass[i], r = atom->radius[i], omega = atom->omega[i][2];
+    const double *const v = atom->v[i];
+    mine[0] += 0.5 * m * (v[0] * v[0] + v[1] * v[1] + inertia[atom->type[i]] * r * r * omega * omega);
+    double x[3];
+    domain->unmap(atom->x[i], atom->image[i], x);
+    mine[3] += m * (step.gx * x[0] + step.gy * x[1]);
+  }
+  MPI_Allreduce(mine, all, 4, MPI_DOUBLE, MPI_SUM, world);
+  return {all[0], all[1], all[2], all[3]};
+}
+
+void ComputeCDEMEnergy::open_books() {
+  if (audit->open)
+    return;
+  const State now = state();
+  pair->book_losses();
+  audit->books = {};
+  audit->opening = {now.kinetic + now.springs, now.gravity};
+  audit->open = true;
+}
+
+void ComputeCDEMEnergy::keep_books() {
+  if (!audit->open)
+    error->all(FLERR, "Compute cdem/energy {}: the first run with an audit must not be 'pre no'", id);
+  pair->book_losses();
+  const State now = state();
+  const auto [friction, dashpots, drag, walls] = audit->all();
+  energy[TANGENTIAL] = now.tangential;
+  energy[FRICTION] = friction;
+  energy[DASHPOTS] = dashpots;
+  energy[DRAG] = drag;
+  energy[WALLS] = walls;
+  energy[GRAVITY] = now.gravity - audit->opening.gravity;
+  energy[RESIDUAL] =
+      now.kinetic + now.springs - audit->opening.energy + friction + dashpots + drag - energy[WALLS] - energy[GRAVITY];
 }
 
 double ComputeCDEMEnergy::compute_scalar() {
   compute_vector();
   invoked_scalar = update->ntimestep;
-  scalar = std::accumulate(energy.begin(), energy.end(), 0.0);
+  scalar = energy[TRANSLATION] + energy[ROTATION] + energy[SPRINGS];
   return scalar;
 }

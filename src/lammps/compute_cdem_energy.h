@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// compute ID group cdem/energy
+// compute ID group cdem/energy [audit yes|no]
 //
 // Global vector (J):
 //
@@ -7,7 +7,23 @@
 //   2 rotation     sum of I omega^2/2 over the group, I = m r^2/2 for a disc, or as fix cdem/shape has it
 //   3 springs      sum of e_n^2/(2 k_n) + e_s^2/(2 k_s) over all contacts, whatever the group
 //
-// Scalar: the sum of the three. It is constant without damping and sliding, and while no wall moves, as far as the time
+// and with `audit yes` (default: no), of all grains that fix cdem/integrate moves, since the first run with the audit:
+//
+//   4 tangential   the part of 3 that is e_s^2/(2 k_s)
+//   5 friction     lost where contacts slide
+//   6 dashpots     lost in the dashpots
+//   7 drag         lost to the drag of fix cdem/integrate
+//   8 walls        work that the walls of fixes cdem/lid and cdem/move did on the grains
+//   9 gravity      work of the gravity of fix cdem/integrate, which must stay the same meanwhile
+//   10 residual    what the grains and the springs have won since then, plus 5 to 7, less 8 and 9
+//
+// Work and losses are sums over steps of the mean force at the two ends of the step times its displacement, as the time
+// integration does work. So the residual is the error of the time step, of second order; and whatever is not in the
+// books: forces of other fixes, grains that are added, removed or given a velocity.
+//
+// An audit costs some time in every step and 32 bytes a pair; its sums are in restart files: after read_restart, make
+// the compute before the first run. The last digits of sums depend on the number of ranks.
+// Scalar: the sum of 1 to 3. It is constant without damping and sliding, and while no wall moves, as far as the time
 // step allows.
 #pragma once
 
@@ -18,22 +34,37 @@
 
 namespace LAMMPS_NS {
 
+class FixCDEMAudit;
+class FixCDEMIntegrate;
 class PairCDEM;
 
 class ComputeCDEMEnergy : public Compute {
 public:
   ComputeCDEMEnergy(LAMMPS *, int, char **);
+  ~ComputeCDEMEnergy() override;
 
   void init() override;
   double compute_scalar() override;
   void compute_vector() override;
 
+  void open_books(); // unless they are open
+
 private:
   enum Part { TRANSLATION, ROTATION, SPRINGS, NPARTS };
+  enum Audit { TANGENTIAL = NPARTS, FRICTION, DASHPOTS, DRAG, WALLS, GRAVITY, RESIDUAL, NALL };
 
-  const PairCDEM *pair = nullptr;
+  // Of all grains, now (J).
+  struct State {
+    double kinetic, springs, tangential, gravity;
+  };
+  State state() const;
+  void keep_books();
+
+  PairCDEM *pair = nullptr;
+  FixCDEMIntegrate *integrate = nullptr;
+  FixCDEMAudit *audit = nullptr;
   std::vector<double> inertia; // over mass radius^2, by type
-  std::array<double, NPARTS> energy{};
+  std::array<double, NALL> energy{};
 };
 
 } // namespace LAMMPS_NS

@@ -3,6 +3,7 @@
 
 #include "compat.h"
 #include "core/exact_sum.h"
+#include "fix_cdem_integrate.h"
 #include "fix_cdem_trm.h"
 
 #include "atom.h"
@@ -34,19 +35,25 @@ void ComputeCDEMTRM::init() {
   sums = dynamic_cast<FixCDEMTRM *>(Shearbox::fix_by_id(lmp, fix_id));
   if (!sums)
     error->all(FLERR, "Compute cdem/trm {}: its fix {} is gone; make the compute again", id, fix_id);
+  integrate = FixCDEMIntegrate::find(lmp);
+  if (!integrate)
+    error->all(FLERR, "Compute cdem/trm {} needs a fix cdem/integrate", id);
 }
 
-// Zero for a grain that has not moved, or is not in the group.
+bool ComputeCDEMTRM::counts(int i) const {
+  return (atom->mask[i] & groupbit) && integrate->is_free(i) && sums->travel()[i].path > 0;
+}
+
 double ComputeCDEMTRM::ratio(int i) const {
-  const auto [rolled, path] = (*sums)[i];
-  return path > 0 ? rolled / path : 0;
+  const auto [path, turned] = sums->travel()[i];
+  return atom->radius[i] * turned / path;
 }
 
 void ComputeCDEMTRM::compute_peratom() {
   invoked_peratom = update->ntimestep;
   ratios.resize(atom->nmax);
   for (int i = 0; i < atom->nlocal; i++)
-    ratios[i] = ratio(i);
+    ratios[i] = counts(i) ? ratio(i) : 0;
   vector_atom = ratios.data();
 }
 
@@ -55,7 +62,7 @@ double ComputeCDEMTRM::compute_scalar() {
   cdem::ExactSum sum;
   bigint moved = 0, all_moved;
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!((*sums)[i].path > 0))
+    if (!counts(i))
       continue;
     sum.add(ratio(i));
     moved++;

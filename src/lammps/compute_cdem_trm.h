@@ -10,7 +10,7 @@
 // spins, below 1 it slides. d theta, dx, dy are the exact increments of each step, so the result does not depend on
 // when it is asked for.
 //
-// Per-atom vector: TRM of the grain (no unit); 0 outside the group, and for a grain that never moved.
+// Per-atom vector: TRM of the grain (no unit); 0 outside the group, for walls, and for a grain that never moved.
 // Scalar: its mean over the grains of the group that have moved, with the same bits for any number of ranks.
 // The sums are in restart files: after read_restart, make the compute with the same ID before the first run, and it
 // goes on. To start afresh, uncompute it and make it again.
@@ -23,6 +23,7 @@
 
 namespace LAMMPS_NS {
 
+class FixCDEMIntegrate;
 class FixCDEMTRM;
 
 class ComputeCDEMTRM : public Compute {
@@ -36,10 +37,12 @@ public:
   double memory_usage() override;
 
 private:
+  bool counts(int i) const; // whether it is a grain of the group that has moved
   double ratio(int i) const;
 
   const std::string fix_id;
   FixCDEMTRM *sums = nullptr;
+  const FixCDEMIntegrate *integrate = nullptr;
   std::vector<double> ratios; // per atom
 };
 

@@ -54,7 +54,7 @@ const FixCDEMHistory::Contact *FixCDEMHistory::find_contact(int i, tagint partne
 
 void FixCDEMHistory::pre_exchange() {
   if (pair)
-    pair->store_history();
+    pair->leave_list();
 }
 
 // The next run may find other grains, in another order: from here on the history is with the grains.

@@ -2,6 +2,7 @@
 #include "fix_cdem_integrate.h"
 
 #include "core/stability.h"
+#include "fix_cdem_audit.h"
 #include "fix_cdem_shape.h"
 #include "pair_cdem.h"
 
@@ -131,6 +132,7 @@ void FixCDEMIntegrate::init() {
   if (!dynamic_cast<PairCDEM *>(force->pair))
     error->all(FLERR, "Fix cdem/integrate needs pair_style cdem");
   refuse_second_integrator();
+  audit = FixCDEMAudit::find(lmp);
   inertia.assign(1, 0);
   for (int type = 1; type <= atom->ntypes; type++)
     inertia.push_back(FixCDEMShape::shape(lmp, type).inertia());
@@ -268,6 +270,26 @@ void FixCDEMIntegrate::post_force(int) {
     for (int k = 0; k < 2; k++)
       atom->f[i][k] += atom->rmass[i] * (gravity[k] - drag * atom->v[i][k]);
   }
+  if (!update->setupflag)
+    book_drag_at([this](int i) { return std::pair(atom->v[i][0], atom->v[i][1]); });
+}
+
+void FixCDEMIntegrate::book_drag(const GrainRows &rows) {
+  book_drag_at([&](int i) { return std::pair(rows.of_grain(i).vx_half, rows.of_grain(i).vy_half); });
+}
+
+// At the velocity of the half step, the middle of what is booked.
+template <class Velocity> void FixCDEMIntegrate::book_drag_at(Velocity velocity) {
+  if (!audit || drag == 0)
+    return;
+  double power = 0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!is_free(i))
+      continue;
+    const auto [vx, vy] = velocity(i);
+    power += drag * atom->rmass[i] * (vx * vx + vy * vy);
+  }
+  audit->books.drag += update->dt * power;
 }
 
 void FixCDEMIntegrate::final_integrate() {

@@ -27,6 +27,9 @@
 
 namespace LAMMPS_NS {
 
+class FixCDEMAudit;
+class GrainRows;
+
 class FixCDEMIntegrate : public Fix {
 public:
   enum Column { AX, AY, ALPHA, ANGLE, NCOLUMNS };
@@ -72,6 +75,8 @@ public:
     double mass, inertia;
   };
   const Inverse &inverse(int i) const { return inverses[i]; }
+  // Of a step made on rows: what drag takes out, if there is an audit.
+  void book_drag(const GrainRows &);
   // Has the neighbour list rebuilt in the next step.
   void rebuild_next() { next_reneighbor = update->ntimestep + 1; }
 
@@ -88,6 +93,9 @@ private:
   void apply_step_rule();
   void take_acceleration(int i);
 
+  template <class Velocity> void book_drag_at(Velocity);
+
+  FixCDEMAudit *audit = nullptr;
   std::vector<Inverse> inverses;
 
   Step rule = Step::check;

@@ -122,6 +122,7 @@ void FixCDEMLid::setup(int) {
     take_acceleration();
   state.valid_step = update->ntimestep;
   set_motion({0, velocity}, {0, state.acceleration});
+  book_start({0, felt_force});
 }
 
 void FixCDEMLid::initial_integrate(int) {
@@ -133,6 +134,7 @@ void FixCDEMLid::initial_integrate(int) {
 void FixCDEMLid::final_integrate() {
   update_stress();
   felt_force = force_y();
+  book_work({0, felt_force});
   take_acceleration();
   velocity += 0.5 * update->dt * state.acceleration;
   if (cap()) {

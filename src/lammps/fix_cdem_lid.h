@@ -33,7 +33,6 @@ public:
   void final_integrate() override;
   double compute_vector(int) override;
   bool follows_forces() const override { return true; }
-  bool moves() const override { return true; }
   bool has_variable() const { return !stress_variable.empty(); }
   void write_restart(FILE *) override;
   void restart(char *) override;

@@ -90,9 +90,19 @@ void FixCDEMMove::initial_integrate(int) {
 }
 
 void FixCDEMMove::final_integrate() {
-  if (speed != 0)
-    apply();
+  if (speed == 0)
+    return;
+  apply();
+  if (follows_forces())
+    book_work(force());
 }
+
+void FixCDEMMove::setup(int) {
+  if (follows_forces())
+    book_start(force());
+}
+
+WallBody::Vector FixCDEMMove::force() const { return along(vertical ? force_y() : force_x()); }
 
 double FixCDEMMove::compute_vector(int n) {
   switch (n) {

@@ -30,8 +30,8 @@ public:
   void final_integrate() override;
   void reset_dt() override;
   double compute_vector(int) override;
-  bool follows_forces() const override { return false; }
-  bool moves() const override { return speed != 0; }
+  void setup(int) override;
+  bool follows_forces() const override { return is_audited() && speed != 0; }
   void write_restart(FILE *) override;
   void restart(char *) override;
 
@@ -47,6 +47,7 @@ private:
   Motion motion() const;
   void apply();
   Vector along(double amount) const;
+  Vector force() const; // along the motion
 
   double speed = 0, ramp = 0, stop = 0; // stop 0: none
   bool vertical = false;

@@ -6,8 +6,6 @@
 #include "atom.h"
 #include "update.h"
 
-#include <cmath>
-
 using namespace LAMMPS_NS;
 
 namespace {
@@ -33,45 +31,29 @@ int FixCDEMTRM::setmask() { return FixConst::POST_INTEGRATE; }
 
 // Here v and omega are those of the half step, with which the step was made: dx = dt v and d theta = dt omega, without
 // differences of positions, which periodic boundaries and migration would break.
-template <class Motion> void FixCDEMTRM::add_step(Motion motion) {
-  const double dt = update->dt, *const radius = atom->radius;
-  const int n = atom->nlocal, *const mask = atom->mask, bit = groupbit;
-  Sums *const sum = sums.data();
-  for (int i = 0; i < n; i++) {
-    if (!(mask[i] & bit))
-      continue;
-    const auto [vx, vy, omega] = motion(i);
-    sum[i].rolled += radius[i] * std::fabs(dt * omega);
-    sum[i].path += dt * std::sqrt(vx * vx + vy * vy);
-  }
-}
-
-namespace {
-struct Velocity {
-  double vx, vy, omega;
-};
-} // namespace
-
 void FixCDEMTRM::post_integrate() {
-  add_step([this](int i) { return Velocity{atom->v[i][0], atom->v[i][1], atom->omega[i][2]}; });
+  for (int i = 0; i < atom->nlocal; i++)
+    sums[i].add(atom->v[i][0], atom->v[i][1], atom->omega[i][2], update->dt);
 }
 
 void FixCDEMTRM::add(const GrainRows &rows) {
-  const cdem::Disc<double> *const grain = &rows.of_grain(0);
-  add_step([=](int i) { return Velocity{grain[i].vx_half, grain[i].vy_half, grain[i].omega_half}; });
+  for (int i = 0; i < atom->nlocal; i++) {
+    const cdem::Disc<double> &grain = rows.of_grain(i);
+    sums[i].add(grain.vx_half, grain.vy_half, grain.omega_half, update->dt);
+  }
 }
 
-double FixCDEMTRM::memory_usage() { return static_cast<double>(sums.capacity() * sizeof(Sums)); }
+double FixCDEMTRM::memory_usage() { return static_cast<double>(sums.capacity() * sizeof(cdem::Travel)); }
 
-void FixCDEMTRM::grow_arrays(int nmax) { sums.resize(nmax, Sums{0, 0}); }
+void FixCDEMTRM::grow_arrays(int nmax) { sums.resize(nmax); }
 
 void FixCDEMTRM::copy_arrays(int i, int j, int) { sums[j] = sums[i]; }
 
-void FixCDEMTRM::set_arrays(int i) { sums[i] = {0, 0}; }
+void FixCDEMTRM::set_arrays(int i) { sums[i] = {}; }
 
 int FixCDEMTRM::pack_exchange(int i, double *buf) {
-  buf[0] = sums[i].rolled;
-  buf[1] = sums[i].path;
+  buf[0] = sums[i].path;
+  buf[1] = sums[i].turned;
   return SIZE;
 }
 

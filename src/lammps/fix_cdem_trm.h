@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// fix cdem/trm: made by compute cdem/trm, not by the user. Sums every step, for each grain of the group, how far it
-// rolled and how far it went; the sums travel with the grain and are in restart files.
+// fix cdem/trm: made by compute cdem/trm, not by the user. Sums every step, for each grain, how much it turned and how
+// far it went; the sums travel with the grain and are in restart files.
 #pragma once
+
+#include "core/disc_motion.h"
 
 #include "fix.h"
 
@@ -13,17 +15,11 @@ class GrainRows;
 
 class FixCDEMTRM : public Fix {
 public:
-  struct Sums {
-    double rolled; // sum of r |d theta|, m
-    double path;   // sum of sqrt(dx^2 + dy^2), m
-  };
-
   FixCDEMTRM(LAMMPS *, int, char **);
   ~FixCDEMTRM() override;
 
-  const Sums &operator[](int i) const { return sums[i]; }
-
-  void add(const GrainRows &); // a step made on rows
+  cdem::Travel *travel() { return sums.data(); } // by atom; of walls without a meaning
+  void add(const GrainRows &);                   // a step made on rows
 
   int setmask() override;
   void post_integrate() override;
@@ -40,9 +36,7 @@ public:
   int maxsize_restart() override;
 
 private:
-  template <class Motion> void add_step(Motion);
-
-  std::vector<Sums> sums; // per atom
+  std::vector<cdem::Travel> sums; // by atom
 };
 
 } // namespace LAMMPS_NS

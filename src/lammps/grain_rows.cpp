@@ -138,20 +138,30 @@ void GrainRows::take_bodies() {
   bodies.resize(grains.size());
   for (int i = 0; i < atom->nlocal; i++) {
     const auto [mass, inertia] = integrate->inverse(i);
-    const double free_mass = integrate->is_free(i) ? atom->rmass[i] : 0;
-    bodies[i] = {integrate->state[i][FixCDEMIntegrate::ANGLE], free_mass, mass, inertia};
+    bodies[i] = {integrate->state[i][FixCDEMIntegrate::ANGLE], atom->rmass[i], mass, inertia};
   }
 }
 
 void GrainRows::advance(const cdem::SlotBlock &block, int begin, int end, const cdem::StepRule &step,
-                        cdem::Fastest &fastest) {
-  const bool body_forces = integrate->has_body_forces();
+                        cdem::Fastest &fastest, cdem::Travel *travel) {
   if (!clumps) {
-    kernels.advance[body_forces](block, grains.data(), bodies.data(), step, fastest);
+    kernels.advance(block, grains.data(), bodies.data(), step, fastest, travel);
     return;
   }
   sum_block(block, begin, end);
-  kernels.advance_clumps[body_forces](columns(), begin, end, step, fastest);
+  kernels.advance_clumps(columns(), begin, end, step, fastest, travel);
+}
+
+void GrainRows::shift(int i, Vector displacement, Vector velocity, Vector ahead) {
+  Disc &row = grains[i];
+  row.x += displacement.x;
+  row.y += displacement.y;
+  row.vx_half = velocity.x;
+  row.vy_half = velocity.y;
+  row.vx = ahead.x;
+  row.vy = ahead.y;
+  if (clumps)
+    expand(i, i + 1);
 }
 
 void GrainRows::write_back() {
@@ -166,9 +176,9 @@ void GrainRows::write_back() {
   }
 }
 
-cdem::Fastest GrainRows::fastest() const {
+cdem::Fastest GrainRows::fastest(int n) const {
   cdem::Fastest fastest;
-  for (int i = 0; i < atom->nlocal; i++) {
+  for (int i = 0; i < n; i++) {
     const Disc &row = grains[i];
     fastest.see(cdem::Four{row.vx_half * row.vx_half, row.vy_half * row.vy_half, row.omega_half * row.omega_half, 0});
   }

@@ -53,12 +53,18 @@ public:
   void sum_grain(const cdem::ForceSlots &, int i);
   cdem::DiscForce force_on(int i);
 
+  // A step of a wall disc in translation: its displacement, at this velocity, and that of the dashpots.
+  struct Vector {
+    double x, y;
+  };
+  void shift(int i, Vector displacement, Vector velocity, Vector ahead);
+
   // For steps on the rows alone: takes angle and mass of own grains; sums the forces on grains begin ... end-1, those
   // of a block, and steps them; gives back where they are, with the velocities of the half step.
   void take_bodies();
-  void advance(const cdem::SlotBlock &, int begin, int end, const cdem::StepRule &, cdem::Fastest &);
+  void advance(const cdem::SlotBlock &, int begin, int end, const cdem::StepRule &, cdem::Fastest &, cdem::Travel *);
   void write_back();
-  cdem::Fastest fastest() const;
+  cdem::Fastest fastest(int n) const; // of the first n grains
 
   double bytes() const;
 

@@ -2,6 +2,8 @@
 #include "pair_cdem.h"
 
 #include "compat.h"
+#include "core/list_skin.h"
+#include "fix_cdem_audit.h"
 #include "fix_cdem_history.h"
 #include "fix_cdem_integrate.h"
 #include "fix_cdem_shape.h"
@@ -15,6 +17,7 @@
 #include "modify.h"
 #include "neigh_list.h"
 #include "neighbor.h"
+#include "timer.h"
 #include "update.h"
 #include "utils.h"
 
@@ -146,9 +149,10 @@ void PairCDEM::check_setting() const {
 
 void PairCDEM::init_style() {
   integrate = FixCDEMIntegrate::find(lmp);
+  audit = FixCDEMAudit::find(lmp);
   check_setting();
-  kernels = cdem::kernels(law, limit_damping, instructions);
-  rows.init(integrate, kernels);
+  rows.init(integrate, cdem::kernels({law, limit_damping}, instructions));
+  list_speed = -1;
   Shearbox::request_half_size_list(lmp, this, instance_me);
 
   if (!history)
@@ -178,13 +182,12 @@ void PairCDEM::compute(int eflag, int vflag) {
   rows.fill(0, atom->nlocal, update->setupflag ? 0 : integrate->step_rule().forward);
   exchange_ghosts();
   if (rebuilt) {
-    build_list();
     neighbours_built_at.resize(atom->nlocal);
     for (int i = 0; i < atom->nlocal; i++)
       neighbours_built_at[i] = {atom->x[i][0], atom->x[i][1]};
-  } else if (turned_out_of_list()) {
-    store_history();
     build_list();
+  } else {
+    refresh_list(list_room);
   }
   forces();
   if (evflag)
@@ -204,6 +207,7 @@ int PairCDEM::pack_forward_comm(int n, int *list, double *buf, int pbc_flag, int
 void PairCDEM::unpack_forward_comm(int n, int first, double *buf) { rows.unpack(n, first, buf); }
 
 void PairCDEM::pair_forces(int block) {
+  history_in_list = true;
   const double dt = update->setupflag ? 0 : update->dt;
   const cdem::PairColumns columns = pairs.columns(slots.data());
   for (int k = pairs.first_segment[block]; k < pairs.first_segment[block + 1]; k++) {
@@ -213,7 +217,6 @@ void PairCDEM::pair_forces(int block) {
 }
 
 void PairCDEM::forces() {
-  history_in_list = true;
   for (int block = 0; block < slots.blocks(); block++) {
     const int begin = block_starts[block], end = block_starts[block + 1];
     pair_forces(block);
@@ -237,7 +240,8 @@ void PairCDEM::keep_forces(int block) {
 
 // A pair belongs to the block of its lower row. So once the pairs of a block are done, so are all pairs of its grains,
 // and these can be moved while their forces are still in the cache: later blocks don't look at them.
-void PairCDEM::forces_and_advance(const cdem::StepRule &step, const std::vector<int> &felt, cdem::Fastest &fastest) {
+void PairCDEM::forces_and_advance(const cdem::StepRule &step, const std::vector<int> &felt, cdem::Fastest &fastest,
+                                  cdem::Travel *travel) {
   auto wall = felt.begin();
   for (int block = 0; block < slots.blocks(); block++) {
     const int begin = block_starts[block], end = block_starts[block + 1];
@@ -248,7 +252,7 @@ void PairCDEM::forces_and_advance(const cdem::StepRule &step, const std::vector<
       atom->f[*wall][0] = fx;
       atom->f[*wall][1] = fy;
     }
-    rows.advance(slots.block(block), begin, end, step, fastest);
+    rows.advance(slots.block(block), begin, end, step, fastest, travel);
   }
 }
 
@@ -257,28 +261,40 @@ double PairCDEM::Place::moved(const cdem::Disc<double> &now) const {
   return std::sqrt(dx * dx + dy * dy);
 }
 
-double PairCDEM::moved_and_turned(int i) const {
-  const Pose &then = discs_built_at[i];
-  return then.place.moved(rows.of_grain(i)) + rows.reach(i) * std::fabs(rows.angle(i) - then.angle);
-}
-
-// LAMMPS rebuilds its list of grain pairs when a centre has moved by half the skin. The list of disc pairs drawn from
-// it also ages when a grain turns; that is for this rank alone to see to, and needs no communication.
-bool PairCDEM::turned_out_of_list() const {
-  for (std::size_t i = 0; i < discs_built_at.size(); i++)
-    if (rows.reach(i) > 0 && moved_and_turned(i) > 0.5 * neighbor->skin)
-      return true;
-  return false;
-}
-
 double PairCDEM::room() const {
   double most = 0;
-  for (int i = 0; i < atom->nlocal; i++) {
+  for (int i = 0; i < atom->nlocal; i++)
     most = std::max(most, neighbours_built_at[i].moved(rows.of_grain(i)));
-    if (rows.has_clumps())
-      most = std::max(most, moved_and_turned(i));
-  }
   return 0.5 * neighbor->skin - most;
+}
+
+// How far any point of a grain is from where it was when the list of disc pairs was built.
+double PairCDEM::most_moved() const {
+  double most = 0;
+  for (std::size_t i = 0; i < discs_built_at.size(); i++) {
+    double moved = discs_built_at[i].moved(rows.of_grain(i));
+    if (rows.has_clumps())
+      moved += rows.reach(i) * std::fabs(rows.angle(i) - angle_built_at[i]);
+    most = std::max(most, moved);
+  }
+  return most;
+}
+
+// Only when a bound of the motion is used up is the motion itself looked at.
+void PairCDEM::refresh_list(double moved) {
+  constexpr double LEAST = 0.05; // of the skin: with less left it is not worth keeping
+  list_room -= moved;
+  if (list_room > 0)
+    return;
+  list_room = 0.5 * list_skin - most_moved();
+  if (list_room > LEAST * list_skin)
+    return;
+  timer->stamp(Timer::PAIR);
+  list_speed = (0.5 * list_skin - list_room) / double(std::max<bigint>(update->ntimestep - list_step, 1));
+  finish_step_in_books();
+  store_history();
+  build_list();
+  timer->stamp(Timer::NEIGH);
 }
 
 double PairCDEM::largest_reach() const {
@@ -290,6 +306,8 @@ double PairCDEM::largest_reach() const {
 }
 
 void PairCDEM::build_list() {
+  kernels = cdem::kernels({law, limit_damping, audit != nullptr}, instructions);
+  choose_skin();
   divide_into_blocks();
   find_pairs();
   pairs.for_each([this](int k, const cdem::Material &) {
@@ -299,11 +317,31 @@ void PairCDEM::build_list() {
   std::vector<int> row_starts;
   for (int grain : block_starts)
     row_starts.push_back(rows.rows_of(grain));
-  slots.build(pairs, row_starts, [this](int p, int q) { return row_before(p, q); });
+  slots.build(
+      pairs, row_starts, [this](int p, int q) { return row_before(p, q); },
+      [this](int p) { return !integrate->is_free(rows.grain(p)); });
 
-  discs_built_at.resize(rows.has_clumps() ? atom->nlocal + atom->nghost : 0);
+  discs_built_at.resize(atom->nlocal + atom->nghost);
+  angle_built_at.resize(rows.has_clumps() ? discs_built_at.size() : 0);
   for (std::size_t i = 0; i < discs_built_at.size(); i++)
-    discs_built_at[i] = {{rows.of_grain(i).x, rows.of_grain(i).y}, rows.angle(i)};
+    discs_built_at[i] = {rows.of_grain(i).x, rows.of_grain(i).y};
+  for (std::size_t i = 0; i < angle_built_at.size(); i++)
+    angle_built_at[i] = rows.angle(i);
+  list_room = 0.5 * list_skin;
+  list_step = update->ntimestep;
+}
+
+// The skin of the list of disc pairs that costs least, see core/list_skin.h. A pair that opens in this step must stay
+// for another one: its dashpot may have a share left. The bits of the forces don't depend on the skin.
+void PairCDEM::choose_skin() {
+  constexpr double LEAST = 0.01, SAFETY = 8;
+  const double largest = neighbor->skin;
+  const double step = update->dt * rows.fastest(atom->nlocal + atom->nghost).speed(largest_reach());
+  double touching = 0, near = 0;
+  list_skin = largest;
+  for_each_candidate([&](int p, int q) { (gap(p, q) < 0 ? touching : near) += 1; });
+  const double cheapest = cdem::cheapest_skin(touching, near / largest, list_speed < 0 ? step : list_speed);
+  list_skin = std::min(std::max({cheapest, LEAST * largest, SAFETY * step}), largest);
 }
 
 // Small enough that a block's forces stay in the cache.
@@ -322,6 +360,12 @@ bool PairCDEM::row_before(int p, int q) const {
   return tag_p != tag_q ? tag_p < tag_q : rows.disc(p) < rows.disc(q);
 }
 
+// Between the rims of two discs.
+double PairCDEM::gap(int p, int q) const {
+  const double dx = rows[p].x - rows[q].x, dy = rows[p].y - rows[q].y;
+  return std::sqrt(dx * dx + dy * dy) - rows.radius(p) - rows.radius(q);
+}
+
 // Calls visit(row, row) for all pairs of discs that may touch before the next rebuild.
 template <class Visit> void PairCDEM::for_each_candidate(Visit visit) const {
   for (int ii = 0; ii < list->inum; ii++) {
@@ -330,14 +374,9 @@ template <class Visit> void PairCDEM::for_each_candidate(Visit visit) const {
       const int j = list->firstneigh[i][jj] & NEIGHMASK;
       if (!integrate->is_free(i) && !integrate->is_free(j))
         continue;
-      if (!rows.has_clumps()) {
-        visit(i, j);
-        continue;
-      }
       for (int p = rows.rows_of(i); p < rows.rows_of(i + 1); p++)
         for (int q = rows.rows_of(j); q < rows.rows_of(j + 1); q++)
-          if (std::hypot(rows[p].x - rows[q].x, rows[p].y - rows[q].y) <
-              rows.radius(p) + rows.radius(q) + neighbor->skin)
+          if (gap(p, q) < list_skin)
             visit(p, q);
     }
   }
@@ -357,7 +396,7 @@ void PairCDEM::find_pairs() {
 
   std::vector<int> sizes(by_types.size() * (block_starts.size() - 1), 0), next(sizes.size(), 0);
   for_each_candidate([&](int p, int q) { sizes[segment_of(p, q)]++; });
-  pairs.lay_out(by_types, sizes, law);
+  pairs.lay_out(by_types, sizes, law, audit != nullptr);
   auto segment = pairs.segments.begin();
   for (std::size_t m = 0; m < sizes.size(); m++)
     if (sizes[m])
@@ -397,10 +436,10 @@ void PairCDEM::tally() {
       return;
     const int i = rows.grain(pairs.a[k]), j = rows.grain(pairs.b[k]);
     const double *const xi = atom->x[i], *const xj = atom->x[j];
-    const double energy = eflag_either ? spring_energy(k, m) : 0;
+    const auto [normal, tangential] = eflag_either ? spring_energy(k, m) : SpringEnergy{0, 0};
     const cdem::Forces<double> &on_a = pairs.force[k];
-    ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, energy, 0, on_a.fx, on_a.fy, 0, xi[0] - xj[0], xi[1] - xj[1],
-                 0);
+    ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, normal + tangential, 0, on_a.fx, on_a.fy, 0, xi[0] - xj[0],
+                 xi[1] - xj[1], 0);
   });
 }
 
@@ -418,20 +457,60 @@ bool PairCDEM::acts(int k) const {
   return overlap(k) > 0 || on_a.fx != 0 || on_a.fy != 0;
 }
 
-double PairCDEM::spring_energy(int k, const cdem::Material &m) const {
+PairCDEM::SpringEnergy PairCDEM::spring_energy(int k, const cdem::Material &m) const {
   if (overlap(k) <= 0)
-    return 0;
+    return {0, 0};
   const double en = law == cdem::Law::direct ? m.kn * overlap(k) : pairs.en[k], es = pairs.es[k];
-  return 0.5 * en * en / m.kn + (m.ks > 0 ? 0.5 * es * es / m.ks : 0);
+  return {0.5 * en * en / m.kn, m.ks > 0 ? 0.5 * es * es / m.ks : 0};
 }
 
-double PairCDEM::elastic_energy() const {
-  double sum = 0;
+PairCDEM::SpringEnergy PairCDEM::spring_energy() const {
+  SpringEnergy sum{0, 0};
   pairs.for_each([&](int k, const cdem::Material &m) {
-    if (counts(k))
-      sum += spring_energy(k, m);
+    if (!counts(k))
+      return;
+    const auto [normal, tangential] = spring_energy(k, m);
+    sum.normal += normal;
+    sum.tangential += tangential;
   });
   return sum;
+}
+
+void PairCDEM::leave_list() {
+  if (audit) {
+    rows.fill(0, atom->nlocal, 0);
+    exchange_ghosts();
+    finish_step_in_books();
+  }
+  store_history();
+}
+
+// The rows have moved, and a new list won't know the last forces of the dashpots. Half of them acted in this step; the
+// other half is that of forces which are still to be computed: for now, of a contact without any.
+void PairCDEM::finish_step_in_books() {
+  if (pairs.friction.empty())
+    return;
+  pairs.for_each([this](int k, const cdem::Material &) {
+    const cdem::Pair<double> pair{pairs.radius_sum[k], pairs.half_difference[k], pairs.root_mass[k]};
+    cdem::History<double> none{0, 0};
+    cdem::Losses<double> losses{0, pairs.dashpots[k], pairs.dashpot_n[k], pairs.dashpot_t[k]};
+    cdem::contact_force<cdem::Law::direct, false, double>(cdem::relative(rows[pairs.a[k]], rows[pairs.b[k]]), pair, {},
+                                                          update->dt, none, losses);
+    pairs.dashpots[k] = losses.dashpots;
+    pairs.dashpot_n[k] = pairs.dashpot_t[k] = 0;
+  });
+}
+
+void PairCDEM::book_losses() {
+  if (!audit || pairs.friction.empty())
+    return;
+  pairs.for_each([this](int k, const cdem::Material &) {
+    if (counts(k)) {
+      audit->books.friction += pairs.friction[k];
+      audit->books.dashpots += pairs.dashpots[k];
+    }
+    pairs.friction[k] = pairs.dashpots[k] = 0;
+  });
 }
 
 PairCDEM::Contact PairCDEM::contact(int k, const cdem::Material &m) const {
@@ -486,7 +565,8 @@ double PairCDEM::single(int i, int j, int itype, int jtype, double, double, doub
     if (atom->tag[other] != atom->tag[j] || !acts(k))
       return;
     const Contact c = contact(k, materials[itype][jtype]);
-    energy += spring_energy(k, materials[itype][jtype]);
+    const auto [normal, tangential] = spring_energy(k, materials[itype][jtype]);
+    energy += normal + tangential;
     fforce += c.fn / std::hypot(rows[p].x - rows[q].x, rows[p].y - rows[q].y);
     svector[0] += c.fn;
     svector[1] += c.ft;
@@ -500,6 +580,7 @@ double PairCDEM::single(int i, int j, int itype, int jtype, double, double, doub
 void PairCDEM::store_history() {
   if (!history_in_list)
     return;
+  book_losses();
   auto for_each_memory = [this](auto visit) { // visit(grain, contact as it remembers it)
     pairs.for_each([&](int k, const cdem::Material &) {
       const double es = pairs.es[k], en = law == cdem::Law::incremental ? pairs.en[k] : 0;

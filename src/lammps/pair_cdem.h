@@ -29,6 +29,7 @@
 
 namespace LAMMPS_NS {
 
+class FixCDEMAudit;
 class FixCDEMHistory;
 class FixCDEMIntegrate;
 
@@ -73,29 +74,38 @@ public:
 
   std::vector<Contact> contacts() const;
   std::vector<DiscPlace> discs() const;
-  double elastic_energy() const; // of the contacts that this rank counts, J
+  struct SpringEnergy {
+    double normal, tangential; // J
+  };
+  SpringEnergy spring_energy() const; // of the contacts that this rank counts
+  void book_losses();                 // of the same, with fix cdem/audit, if there is one
 
   void store_history();   // from the list to the grains
+  void leave_list();      // the same, once the atoms have moved on: the list is to be rebuilt
   void release_history(); // the same, and the list is no longer the place where it is kept
 
   // What a step consists of, for run style cdem, which steps the rows alone while nothing else asks for the atoms.
   GrainRows rows;
   void exchange_ghosts(); // the rows of ghosts, from their owners
   void forces();          // adds to f and torque of own grains
-  // The same, but moves the rows of own grains; f of these own walls only.
-  void forces_and_advance(const cdem::StepRule &, const std::vector<int> &felt, cdem::Fastest &);
-  // How far any point of a grain may still move before the list misses a pair (m); less than 0: it may miss one now.
+  // The same, but moves the rows of own grains; f of these own walls only. Adds to what they have travelled, unless
+  // null.
+  void forces_and_advance(const cdem::StepRule &, const std::vector<int> &felt, cdem::Fastest &, cdem::Travel *);
+  // How far any grain may still move before LAMMPS's list misses a pair of grains (m); less than 0: it may miss one
+  // now.
   double room() const;
   double largest_reach() const;
+  // To be called before the forces if rows have moved, no point of a grain by more than this since the last call (m).
+  void refresh_list(double moved);
 
 private:
   void allocate();
   void check_setting() const;
 
   bool row_before(int, int) const;
-  bool turned_out_of_list() const;
 
   void build_list();
+  void choose_skin();
   void divide_into_blocks();
   template <class Visit> void for_each_candidate(Visit) const;
   void find_pairs();
@@ -104,11 +114,13 @@ private:
 
   void pair_forces(int block);
   void keep_forces(int block);
+  void finish_step_in_books();
   void tally();
 
+  double gap(int p, int q) const;
   double overlap(int k) const;
   bool acts(int k) const;
-  double spring_energy(int k, const cdem::Material &) const;
+  SpringEnergy spring_energy(int k, const cdem::Material &) const;
   Contact contact(int k, const cdem::Material &) const;
   bool counts(int k) const;
 
@@ -120,20 +132,22 @@ private:
 
   FixCDEMIntegrate *integrate = nullptr;
   FixCDEMHistory *history = nullptr;
+  FixCDEMAudit *audit = nullptr;
 
-  // Where a grain was when the list of grain pairs, or that of disc pairs, was built. The latter also ages when a grain
-  // turns; it can be rebuilt without any communication.
+  // Where a grain was when LAMMPS's list of grain pairs was built, and this style's of disc pairs. The latter has a
+  // smaller skin and also ages when a grain turns. Each rank rebuilds it for itself, without any communication.
   struct Place {
     double x, y;
     double moved(const cdem::Disc<double> &) const;
   };
-  struct Pose {
-    Place place;
-    double angle;
-  };
-  double moved_and_turned(int i) const;
+  double most_moved() const;
   std::vector<Place> neighbours_built_at; // of own grains
-  std::vector<Pose> discs_built_at;       // of all grains, empty unless clumps
+  std::vector<Place> discs_built_at;      // of all grains
+  std::vector<double> angle_built_at;     // of all grains, empty unless clumps
+  double list_skin = 0;                   // discs no further apart than this are in the list (m)
+  double list_room = 0;                   // at least so far may any point of a grain still move (m)
+  double list_speed = -1;                 // at which the farthest got away from the last list (m a step), -1: unknown
+  bigint list_step = 0;                   // when the list was built
 
   std::vector<int> block_starts; // grains block_starts[k] ... block_starts[k+1]-1 are block k
   cdem::DiscPairs pairs;

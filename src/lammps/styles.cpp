@@ -9,6 +9,7 @@
 #include "compute_cdem_energy.h"
 #include "compute_cdem_trm.h"
 #include "fix.h"
+#include "fix_cdem_audit.h"
 #include "fix_cdem_history.h"
 #include "fix_cdem_integrate.h"
 #include "fix_cdem_lid.h"
@@ -59,6 +60,7 @@ template <class T> Shearbox::Style run(const char *name) {
 const std::vector<Shearbox::Style> &Shearbox::styles() {
   static const std::vector<Style> all = {
       pair<PairCDEM>("cdem"),
+      fix<FixCDEMAudit>("cdem/audit"),
       fix<FixCDEMHistory>("cdem/history"),
       fix<FixCDEMIntegrate>("cdem/integrate"),
       fix<FixCDEMShape>("cdem/shape"),

@@ -115,7 +115,7 @@ void VerletCDEM::glide(bigint target) {
   reach = pair->largest_reach();
   measure_room();
   travelled = 0;
-  if (!rebuild_is_due(0, pair->rows.fastest()) && update->ntimestep < target)
+  if (!rebuild_is_due(0, pair->rows.fastest(atom->nlocal)) && update->ntimestep < target)
     glide_on(target);
   timer->stamp(Timer::PAIR);
 }
@@ -123,22 +123,33 @@ void VerletCDEM::glide(bigint target) {
 void VerletCDEM::glide_on(bigint target) {
   find_walls();
   begin_step();
-  cdem::Fastest fastest = pair->rows.fastest();
+  cdem::Fastest fastest = pair->rows.fastest(atom->nlocal);
   for (;;) {
     pair->exchange_ghosts();
-    if (rebuild_is_due(1, fastest) || update->ntimestep == target || stopped())
+    const bool due = rebuild_is_due(1, fastest);
+    pair->refresh_list(stride);
+    if (due || update->ntimestep == target || stopped())
       break;
     fastest = {};
-    pair->forces_and_advance(rule, felt, fastest);
-    move_walls();
-    for (FixCDEMTRM *fix : statistics)
-      fix->add(pair->rows);
+    step(fastest);
   }
+  for (WallBody *fix : wall_bodies)
+    fix->move_rows(nullptr);
   pair->rows.write_back();
   force_clear();
   pair->forces();
   integrate->post_force(0);
   modify->final_integrate();
+}
+
+// The first of the statistics is taken where the grains are moved, others by loops of their own.
+void VerletCDEM::step(cdem::Fastest &fastest) {
+  integrate->book_drag(pair->rows);
+  const auto first = statistics.begin(), end = statistics.end();
+  pair->forces_and_advance(rule, felt, fastest, first != end ? (*first)->travel() : nullptr);
+  move_walls(fastest);
+  if (first != end)
+    std::for_each(first + 1, end, [this](FixCDEMTRM *fix) { fix->add(pair->rows); });
 }
 
 // As Verlet does it, on the atoms' arrays.
@@ -152,38 +163,28 @@ void VerletCDEM::begin_step() {
   rule = integrate->step_rule();
   pair->rows.take_bodies();
   pair->rows.fill(0, atom->nlocal, rule.forward);
+  for (WallBody *fix : wall_bodies)
+    fix->move_rows(&pair->rows);
 }
 
-// A wall that has a velocity but no fix to move it stays where it is.
 void VerletCDEM::find_walls() {
   felt.clear();
-  moving.clear();
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (integrate->is_free(i))
-      continue;
-    const double *const v = atom->v[i];
-    bool moves = v[0] != 0 || v[1] != 0 || atom->omega[i][2] != 0, follows = false;
-    for (const WallBody *fix : wall_bodies) {
-      moves = moves || (fix->moves() && fix->in_group(i));
-      follows = follows || (fix->follows_forces() && fix->in_group(i));
-    }
-    if (moves)
-      moving.push_back(i);
-    if (follows)
+  for (int i = 0; i < atom->nlocal; i++)
+    if (std::any_of(wall_bodies.begin(), wall_bodies.end(),
+                    [i](const WallBody *fix) { return fix->follows_forces() && fix->in_group(i); }))
       felt.push_back(i);
-  }
 }
 
 // The second half of a step and the first of the next, by the fixes that move them.
-void VerletCDEM::move_walls() {
+void VerletCDEM::move_walls(cdem::Fastest &fastest) {
   for (WallBody *fix : wall_bodies)
     fix->final_integrate();
   update->ntimestep++;
   neighbor->ago++;
   for (WallBody *fix : wall_bodies)
     fix->initial_integrate(0);
-  for (int i : moving)
-    pair->rows.fill(i, i + 1, rule.forward);
+  for (const WallBody *fix : wall_bodies)
+    fastest.see(cdem::Four{fix->speed() * fix->speed(), 0, 0, 0});
 }
 
 void VerletCDEM::measure_room() {
@@ -198,10 +199,9 @@ void VerletCDEM::measure_room() {
 bool VerletCDEM::rebuild_is_due(int steps, const cdem::Fastest &fastest) {
   constexpr double SAFETY = 4, LEAST = 0.05;
   const double mine = update->dt * fastest.speed(reach);
-  double step;
-  MPI_Allreduce(&mine, &step, 1, MPI_DOUBLE, MPI_MAX, world);
-  travelled += steps * step;
-  const double needed = std::max(SAFETY * step, LEAST * 0.5 * neighbor->skin);
+  MPI_Allreduce(&mine, &stride, 1, MPI_DOUBLE, MPI_MAX, world);
+  travelled += steps * stride;
+  const double needed = std::max(SAFETY * stride, LEAST * 0.5 * neighbor->skin);
   if (travelled + needed < room)
     return false;
   measure_room();

@@ -45,7 +45,8 @@ private:
   void glide_on(bigint target);
   void find_walls();
   void begin_step();
-  void move_walls();
+  void step(cdem::Fastest &);
+  void move_walls(cdem::Fastest &);
   void measure_room();
   bool rebuild_is_due(int steps, const cdem::Fastest &);
 
@@ -53,12 +54,13 @@ private:
   FixCDEMIntegrate *integrate = nullptr;
   std::vector<WallBody *> wall_bodies;
   std::vector<FixCDEMTRM *> statistics;
-  std::vector<int> felt, moving; // own wall discs whose forces matter in every step, and those that may move
+  std::vector<int> felt; // own wall discs whose forces matter in every step
 
   bool can_glide = false;
   bigint run_start = 0;
   cdem::StepRule rule{};
   double reach = 0;     // largest of all grains
+  double stride = 0;    // no point of a grain moved further in the last step (m)
   double room = 0;      // of the list when it was last measured
   double travelled = 0; // by the fastest since then
 };

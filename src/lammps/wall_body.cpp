@@ -2,9 +2,11 @@
 #include "wall_body.h"
 
 #include "core/exact_sum.h"
+#include "fix_cdem_audit.h"
 #include "fix_cdem_integrate.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "group.h"
@@ -12,6 +14,7 @@
 #include "utils.h"
 
 #include <algorithm>
+#include <cmath>
 
 using namespace LAMMPS_NS;
 
@@ -40,6 +43,7 @@ void WallBody::init() {
   if (group->count(igroup) == 0)
     error->all(FLERR, "Fix {} {}: group {} has no atoms", style, id, name);
 
+  audit = FixCDEMAudit::find(lmp);
   integrate = FixCDEMIntegrate::find(lmp);
   if (integrate)
     if (const bigint n = count_also_in(integrate->groupbit))
@@ -105,7 +109,14 @@ double WallBody::total_mass() const {
   return sum([this](int i) { return atom->rmass[i]; });
 }
 
+void WallBody::move_rows(GrainRows *where) { rows = where; }
+
+double WallBody::speed() const { return std::hypot(velocity_of_step.x, velocity_of_step.y); }
+
 void WallBody::set_motion(Vector velocity, Vector acceleration) {
+  acceleration_now = acceleration;
+  if (rows)
+    return;
   for (int i : discs) {
     atom->v[i][0] = velocity.x;
     atom->v[i][1] = velocity.y;
@@ -116,7 +127,23 @@ void WallBody::set_motion(Vector velocity, Vector acceleration) {
   }
 }
 
+void WallBody::book_work(Vector force) {
+  if (audit && comm->me == 0)
+    audit->books.walls -= 0.5 * ((force_before.x + force.x) * displacement_of_step.x +
+                                 (force_before.y + force.y) * displacement_of_step.y);
+  force_before = force;
+}
+
 void WallBody::shift(Vector displacement, Vector velocity) {
+  displacement_of_step = displacement;
+  velocity_of_step = velocity;
+  if (rows) {
+    const double forward = integrate->step_rule().forward;
+    const Vector ahead{velocity.x + forward * acceleration_now.x, velocity.y + forward * acceleration_now.y};
+    for (int i : discs)
+      rows->shift(i, displacement, velocity, ahead);
+    return;
+  }
   for (int i : discs) {
     atom->x[i][0] += displacement.x;
     atom->x[i][1] += displacement.y;

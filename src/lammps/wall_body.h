@@ -5,12 +5,15 @@
 // whole. A disc belongs to one such body at most, and never to the grains that fix cdem/integrate moves.
 #pragma once
 
+#include "grain_rows.h"
+
 #include "fix.h"
 
 #include <vector>
 
 namespace LAMMPS_NS {
 
+class FixCDEMAudit;
 class FixCDEMIntegrate;
 
 class WallBody : public Fix {
@@ -23,14 +26,18 @@ public:
   void pre_neighbor() override;
 
   virtual bool follows_forces() const = 0; // whether it needs the forces in every step
-  virtual bool moves() const = 0;
 
   bool in_group(int i) const;
 
+  bool is_audited() const { return audit; }
+
+  // From now on, and until this is null, the discs are moved where they are rows, and the atoms are left as they are.
+  void move_rows(GrainRows *);
+  // Of the step that was begun last (m/s).
+  double speed() const;
+
 protected:
-  struct Vector {
-    double x, y;
-  };
+  using Vector = GrainRows::Vector;
 
   // Next argument as a number; error if there is none or it is not one.
   double number(int narg, char **arg, int &iarg, const char *keyword) const;
@@ -46,12 +53,18 @@ protected:
   void set_motion(Vector velocity, Vector acceleration);
   // One step's displacement, made at the given mean velocity.
   void shift(Vector displacement, Vector velocity);
+  // The force on the body at the end of a step, or at setup: for the work it did in the step, if there is an audit.
+  void book_work(Vector force);
+  void book_start(Vector force) { force_before = force; }
 
 private:
   template <class Term> double sum(Term term) const;
   bigint count_also_in(int other_groupbit) const;
 
   FixCDEMIntegrate *integrate = nullptr;
+  FixCDEMAudit *audit = nullptr;
+  GrainRows *rows = nullptr; // null: the atoms themselves
+  Vector displacement_of_step{0, 0}, velocity_of_step{0, 0}, acceleration_now{0, 0}, force_before{0, 0};
   std::vector<int> discs; // own atoms of the group, valid between rebuilds of the neighbour list
 };
 

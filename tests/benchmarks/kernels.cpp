@@ -43,7 +43,7 @@ struct Packing {
       pairs.root_mass[k] = 0.013;
       count++;
     });
-    slots.build(pairs, starts, std::less<int>());
+    slots.build(pairs, starts, std::less<int>(), [](int) { return false; });
     const double distance = 2 * RADIUS - OVERLAP;
     for (int i = 0; i < n; i++) {
       const int row = i / side, column = i % side;
@@ -67,7 +67,7 @@ struct Packing {
 
 void time_forces(benchmark::State &state, const std::string &instructions) {
   Packing p(int(state.range(0)));
-  const Kernels k = kernels(Law::direct, false, instructions);
+  const Kernels k = kernels({}, instructions);
   const PairColumns columns = p.pairs.columns(p.slots.data());
   for (auto _ : state)
     for (const auto &s : p.pairs.segments)
@@ -77,11 +77,11 @@ void time_forces(benchmark::State &state, const std::string &instructions) {
 
 void time_advance(benchmark::State &state, const std::string &instructions) {
   Packing p(int(state.range(0)));
-  const Kernels k = kernels(Law::direct, false, instructions);
+  const Kernels k = kernels({}, instructions);
   Fastest fastest;
   for (auto _ : state)
     for (int block = 0; block < p.slots.blocks(); block++)
-      k.advance[0](p.slots.block(block), p.discs.data(), p.bodies.data(), {DT, DT / 2}, fastest);
+      k.advance(p.slots.block(block), p.discs.data(), p.bodies.data(), {DT, DT / 2}, fastest, nullptr);
   state.SetItemsProcessed(state.iterations() * state.range(0) * state.range(0));
 }
 

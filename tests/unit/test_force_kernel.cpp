@@ -13,10 +13,10 @@
 #include <random>
 
 namespace cdem {
-Kernels kernels_baseline(Law, bool limit_damping);
+Kernels kernels_baseline(const ContactRules &);
 #if defined(__x86_64__)
-Kernels kernels_avx2(Law, bool limit_damping);
-Kernels kernels_avx512(Law, bool limit_damping);
+Kernels kernels_avx2(const ContactRules &);
+Kernels kernels_avx512(const ContactRules &);
 #endif
 } // namespace cdem
 
@@ -26,14 +26,18 @@ namespace {
 
 constexpr double DT = 2e-7;
 
+bool is_wall(int disc) { return disc % 5 == 0; }
+
 // Discs of 1 mm on a jittered line, each pair of neighbours overlapping, apart, closing or opening within the step.
 struct Scene {
   Column<Disc<double>> discs;
   Column<Body> bodies;
+  Column<Travel> travel;
   DiscPairs pairs;
   ForceSlots slots;
 
-  Scene(int n, Law law) {
+  Scene(int n, const ContactRules &rules) {
+    const Law law = rules.law;
     std::mt19937 random(7);
     std::uniform_real_distribution<double> unit(-1, 1);
     for (int i = 0; i <= n; i++) {
@@ -43,10 +47,11 @@ struct Scene {
       d.vx = d.vx_half + 0.1 * unit(random), d.vy = d.vy_half + 0.1 * unit(random), d.omega = d.omega_half;
       discs.push_back(d);
       bodies.push_back({unit(random), 1e-4, 1e4, 1e10});
+      travel.push_back({});
     }
     // Two blocks of discs; the pair between them belongs to the first, and the last disc is not summed.
     const int middle = n / 2 + 1;
-    pairs.lay_out({material(1e8, 2.5e7, 0.215, 0.3, 0.5)}, {middle, n - middle}, law);
+    pairs.lay_out({material(1e8, 2.5e7, 0.215, 0.3, 0.5)}, {middle, n - middle}, law, rules.books);
     for (int pair = 0; pair < n; pair++) {
       const int k = pair < middle ? pair : pairs.segments[1].begin + pair - middle;
       pairs.a[k] = pair % 3 ? pair : pair + 1;
@@ -58,7 +63,7 @@ struct Scene {
       if (law == Law::incremental)
         pairs.en[k] = unit(random);
     }
-    slots.build(pairs, {0, middle, n}, std::less<int>());
+    slots.build(pairs, {0, middle, n}, std::less<int>(), is_wall);
   }
 
   void step(const Kernels &kernels) {
@@ -68,17 +73,27 @@ struct Scene {
       for (int s = pairs.first_segment[block]; s < pairs.first_segment[block + 1]; s++)
         kernels.forces(discs.data(), columns, pairs.segments[s].material, pairs.segments[s].begin,
                        pairs.segments[s].end, DT);
-      kernels.advance[1](slots.block(block), discs.data(), bodies.data(), {DT, DT / 2, 3, -10, 5}, fastest);
+      kernels.advance(slots.block(block), discs.data(), bodies.data(), {DT, DT / 2, 3, -10, 5}, fastest, travel.data());
     }
   }
 };
 
-template <Law law, bool limit>
+template <Law law, bool limit, bool books>
 void plain_forces(const Disc<double> *discs, const PairColumns &p, const Material &m, int begin, int end, double dt) {
   for (int k = begin; k < end; k++) {
     const Pair<double> pair{p.radius_sum[k], p.half_difference[k], p.root_mass[k]};
     History<double> history{p.es[k], law == Law::incremental ? p.en[k] : 0};
-    const auto f = contact_force<law, limit, double>(relative(discs[p.a[k]], discs[p.b[k]]), pair, m, dt, history);
+    Losses<double> losses{};
+    if (books)
+      losses = {p.friction[k], p.dashpots[k], p.dashpot_n[k], p.dashpot_t[k]};
+    const auto f =
+        contact_force<law, limit, double>(relative(discs[p.a[k]], discs[p.b[k]]), pair, m, dt, history, losses);
+    if (books) {
+      p.friction[k] = losses.friction;
+      p.dashpots[k] = losses.dashpots;
+      p.dashpot_n[k] = losses.dashpot_n;
+      p.dashpot_t[k] = losses.dashpot_t;
+    }
     p.slots[p.slot_a[k]] = f;
     p.slots[p.slot_b[k]] = opposite(f);
     p.es[k] = history.es;
@@ -88,13 +103,16 @@ void plain_forces(const Disc<double> *discs, const PairColumns &p, const Materia
 }
 
 // All discs of a block, whose slots lie in their order, one value at a time.
-void plain_advance(const SlotBlock &block, Disc<double> *discs, Body *bodies, const StepRule &step, Fastest &) {
+void plain_advance(const SlotBlock &block, Disc<double> *discs, Body *bodies, const StepRule &step, Fastest &,
+                   Travel *travel) {
   const Forces<double> *slot = block.slots;
   for (const SlotRun *run = block.begin; run != block.end; ++run)
     for (int d = run->begin; d < run->end; d++) {
       double fx = 0, fy = 0, torque = 0;
       for (int s = 0; s < run->count; s++, slot++)
         fx += slot->fx, fy += slot->fy, torque += slot->torque_a;
+      if (is_wall(block.order[d]))
+        continue;
       Disc<double> &disc = discs[block.order[d]];
       Body &body = bodies[block.order[d]];
       fx += body.mass * (step.gx - step.drag * disc.vx_half);
@@ -111,31 +129,39 @@ void plain_advance(const SlotBlock &block, Disc<double> *discs, Body *bodies, co
       disc.vx = disc.vx_half + step.forward * ax;
       disc.vy = disc.vy_half + step.forward * ay;
       disc.omega = disc.omega_half + step.forward * alpha;
+      Travel &t = travel[block.order[d]];
+      t.path += step.dt * std::sqrt(disc.vx_half * disc.vx_half + disc.vy_half * disc.vy_half);
+      t.turned += step.dt * std::fabs(disc.omega_half);
     }
 }
 
-template <Law law, bool limit> Kernels plain() {
-  return {plain_forces<law, limit>, nullptr, nullptr, {}, {plain_advance, plain_advance}};
+template <Law law, bool limit, bool books> Kernels plain() {
+  return {plain_forces<law, limit, books>, nullptr, nullptr, nullptr, plain_advance};
 }
 
 template <class T> bool same_bits(const Column<T> &a, const Column<T> &b, int n) {
   return std::memcmp(a.data(), b.data(), n * sizeof(T)) == 0;
 }
 
-void compare(const Kernels &expected_by, const Kernels &got_by, Law law) {
+void compare(const Kernels &expected_by, const Kernels &got_by, const ContactRules &rules) {
   for (int n : {2, 3, 8, 13, 1000}) {
-    Scene expected(n, law), got(n, law);
+    Scene expected(n, rules), got(n, rules);
     for (int step = 0; step < 3; step++) {
       expected.step(expected_by);
       got.step(got_by);
     }
     EXPECT_TRUE(same_bits(expected.discs, got.discs, n)) << n << " pairs";
     EXPECT_TRUE(same_bits(expected.bodies, got.bodies, n)) << n << " pairs";
+    EXPECT_TRUE(same_bits(expected.travel, got.travel, n)) << n << " pairs";
     for (const auto &segment : got.pairs.segments)
       for (int k = segment.begin; k < segment.end; k++) {
         EXPECT_EQ(expected.pairs.es[k], got.pairs.es[k]) << n << " pairs";
-        if (law == Law::incremental) {
+        if (rules.law == Law::incremental) {
           EXPECT_EQ(expected.pairs.en[k], got.pairs.en[k]) << n << " pairs";
+        }
+        if (rules.books) {
+          EXPECT_EQ(expected.pairs.friction[k], got.pairs.friction[k]) << n << " pairs";
+          EXPECT_EQ(expected.pairs.dashpots[k], got.pairs.dashpots[k]) << n << " pairs";
         }
       }
   }
@@ -144,16 +170,28 @@ void compare(const Kernels &expected_by, const Kernels &got_by, Law law) {
 } // namespace
 
 TEST(ForceKernel, BaselineHasTheBitsOfThePlainLoop) {
-  compare(plain<Law::direct, false>(), kernels_baseline(Law::direct, false), Law::direct);
-  compare(plain<Law::direct, true>(), kernels_baseline(Law::direct, true), Law::direct);
-  compare(plain<Law::incremental, false>(), kernels_baseline(Law::incremental, false), Law::incremental);
-  compare(plain<Law::incremental, true>(), kernels_baseline(Law::incremental, true), Law::incremental);
+  auto check = [](const Kernels &plain, const ContactRules &rules) { compare(plain, kernels_baseline(rules), rules); };
+  check(plain<Law::direct, false, false>(), {Law::direct, false, false});
+  check(plain<Law::direct, false, true>(), {Law::direct, false, true});
+  check(plain<Law::direct, true, true>(), {Law::direct, true, true});
+  check(plain<Law::incremental, false, false>(), {Law::incremental, false, false});
+  check(plain<Law::incremental, true, false>(), {Law::incremental, true, false});
+  check(plain<Law::incremental, true, true>(), {Law::incremental, true, true});
+}
+
+TEST(ForceKernel, BooksDoNotChangeTheForces) {
+  Scene with(1000, {Law::direct, false, true}), without(1000, {});
+  for (int step = 0; step < 3; step++) {
+    with.step(kernels({Law::direct, false, true}, instruction_sets().front()));
+    without.step(kernels({}, instruction_sets().front()));
+  }
+  EXPECT_TRUE(same_bits(with.discs, without.discs, 1000));
 }
 
 TEST(ForceKernel, FusedOnesDifferByRoundingOnly) {
-  Scene expected(1000, Law::direct), got(1000, Law::direct);
-  expected.step(plain<Law::direct, false>());
-  got.step(kernels(Law::direct, false, instruction_sets().front()));
+  Scene expected(1000, {}), got(1000, {});
+  expected.step(plain<Law::direct, false, false>());
+  got.step(kernels({}, instruction_sets().front()));
   for (int i = 0; i < 1000; i++) {
     EXPECT_NEAR(expected.discs[i].vx, got.discs[i].vx, 1e-11) << i;
     EXPECT_NEAR(expected.discs[i].vy, got.discs[i].vy, 1e-11) << i;
@@ -167,6 +205,7 @@ TEST(ForceKernel, Avx2AndAvx512HaveTheSameBits) {
     GTEST_SKIP() << "no AVX-512 here";
   for (Law law : {Law::direct, Law::incremental})
     for (bool limit : {false, true})
-      compare(kernels_avx2(law, limit), kernels_avx512(law, limit), law);
+      for (bool books : {false, true})
+        compare(kernels_avx2({law, limit, books}), kernels_avx512({law, limit, books}), {law, limit, books});
 }
 #endif

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How far beyond touching a list of pairs should reach. A larger skin puts more pairs that don't touch into every step,
+// a smaller one has the list rebuilt more often.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+namespace cdem {
+
+// With `touching` pairs, `per_metre` more for each metre of skin s, and discs that get away from where the list was
+// built at `speed` (m a step), a step costs
+//
+//   touching + per_metre s + REBUILD touching 2 speed/s
+//
+// times what a pair costs, and this is the s (m) where that is least. REBUILD: so many steps' pairs are as dear as a
+// new list, measured by the benchmarks (tests/benchmarks/README.md).
+inline double cheapest_skin(double touching, double per_metre, double speed) {
+  constexpr double REBUILD = 20;
+  if (per_metre == 0)
+    return std::numeric_limits<double>::infinity();
+  return std::sqrt(2 * REBUILD * touching * speed / per_metre);
+}
+
+} // namespace cdem

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fix_cdem_audit.h"
+
+#include "compute_cdem_energy.h"
+
+#include "comm.h"
+#include "modify.h"
+
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+namespace {
+struct Saved {
+  FixCDEMAudit::Books books;
+  FixCDEMAudit::Opening opening;
+  double open;
+};
+} // namespace
+
+FixCDEMAudit *FixCDEMAudit::find(LAMMPS *lmp) {
+  for (int i = 0; i < lmp->modify->nfix; i++)
+    if (auto *fix = dynamic_cast<FixCDEMAudit *>(lmp->modify->fix[i]))
+      return fix;
+  return nullptr;
+}
+
+FixCDEMAudit::FixCDEMAudit(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) { restart_global = 1; }
+
+void FixCDEMAudit::setup(int) {
+  if (compute)
+    compute->open_books();
+}
+
+FixCDEMAudit::Books FixCDEMAudit::all() const {
+  const double mine[4] = {books.friction, books.dashpots, books.drag, books.walls};
+  double sum[4];
+  MPI_Allreduce(mine, sum, 4, MPI_DOUBLE, MPI_SUM, world);
+  return {sum[0], sum[1], sum[2], sum[3]};
+}
+
+// The pair style has put its columns into the books by now: fix cdem/history, made before this one, had it do so.
+void FixCDEMAudit::write_restart(FILE *fp) {
+  const Saved saved{all(), opening, double(open)};
+  const int size = sizeof(saved);
+  if (comm->me != 0)
+    return;
+  fwrite(&size, sizeof(size), 1, fp);
+  fwrite(&saved, sizeof(saved), 1, fp);
+}
+
+void FixCDEMAudit::restart(char *buf) {
+  Saved saved;
+  memcpy(&saved, buf, sizeof(saved));
+  opening = saved.opening;
+  open = saved.open != 0;
+  if (comm->me == 0)
+    books = saved.books;
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The skin that costs least, against a search for the least of the formula in the header.
+#include "core/list_skin.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using cdem::cheapest_skin;
+
+namespace {
+
+// Up to a factor: a rebuild is as dear as 20 steps' pairs.
+double cost(double touching, double per_metre, double speed, double skin) {
+  return touching + per_metre * skin + 20 * touching * 2 * speed / skin;
+}
+
+TEST(ListSkin, NoOtherSkinCostsLess) {
+  for (double speed : {1e-12, 1e-9, 1e-6})
+    for (double per_metre : {1e5, 1e7}) {
+      const double skin = cheapest_skin(1000, per_metre, speed), least = cost(1000, per_metre, speed, skin);
+      for (double factor : {0.5, 0.9, 1.1, 2.0})
+        EXPECT_GT(cost(1000, per_metre, speed, factor * skin), least);
+    }
+}
+
+TEST(ListSkin, NothingMoves) { EXPECT_EQ(cheapest_skin(1000, 1e6, 0), 0); }
+
+TEST(ListSkin, NothingElseIsNear) { EXPECT_TRUE(std::isinf(cheapest_skin(1000, 0, 1e-9))); }
+
+} // namespace
