@@ -56,20 +56,45 @@ struct ClumpColumns {
   }
 }
 
-// The discs of grains begin ... end-1; several angles are computed at a time.
-[[gnu::always_inline]] inline void expand(const ClumpColumns &columns, int begin, int end, double half_step) {
-  constexpr int CHUNK = 32;
-  double cosine[CHUNK], sine[CHUNK];
-  for (int first = begin; first < end; first += CHUNK) {
-    const int n = std::min(CHUNK, end - first);
-    for (int k = 0; k < n; k++) {
-      const Rotation turn = rotation(columns.bodies[first + k].angle);
+// Some grains whose discs are to be placed: several angles are computed at a time.
+class Expansion {
+public:
+  [[gnu::always_inline]] Expansion(const ClumpColumns &c, double half) : columns(c), half_step(half) {}
+
+  [[gnu::always_inline]] void add(int grain) {
+    grains[n] = grain;
+    angle[n++] = columns.bodies[grain].angle;
+    if (n == ROOM)
+      finish();
+  }
+
+  [[gnu::always_inline]] void finish() {
+    double cosine[ROOM], sine[ROOM];
+    for (int k = 0; k < (n + LANES - 1) / LANES * LANES; k++) {
+      const Rotation turn = rotation(angle[k]);
       cosine[k] = turn.cosine;
       sine[k] = turn.sine;
     }
     for (int k = 0; k < n; k++)
-      expand(columns, first + k, {cosine[k], sine[k]}, half_step);
+      expand(columns, grains[k], {cosine[k], sine[k]}, half_step);
+    n = 0;
   }
+
+private:
+  static constexpr int ROOM = 32, LANES = 8;
+
+  const ClumpColumns columns;
+  const double half_step;
+  int n = 0, grains[ROOM];
+  double angle[ROOM] = {};
+};
+
+// The discs of grains begin ... end-1.
+[[gnu::always_inline]] inline void expand(const ClumpColumns &columns, int begin, int end, double half_step) {
+  Expansion discs(columns, half_step);
+  for (int i = begin; i < end; i++)
+    discs.add(i);
+  discs.finish();
 }
 
 } // namespace cdem

@@ -76,8 +76,7 @@ void advance_block(const SlotBlock &block, Disc<double> *discs, Body *bodies, co
 }
 
 void expand_clumps(const ClumpColumns &columns, int begin, int end, double half_step) {
-  const ClumpColumns c = columns;
-  expand(c, begin, end, half_step);
+  expand(columns, begin, end, half_step);
 }
 
 void advance_clumps(const ClumpColumns &columns, int begin, int end, const StepRule &step, Fastest &fastest,
@@ -86,11 +85,15 @@ void advance_clumps(const ClumpColumns &columns, int begin, int end, const StepR
     Four squares{};
     const ClumpColumns c = columns;
     const StepRule s = step;
-    for (int i = begin; i < end; i++)
-      if (c.bodies[i].inverse_mass != 0)
-        advance<body_forces>(c.grains[i], c.bodies[i], force_on(c, i), s, squares, travels ? travel + i : nullptr);
+    Expansion discs(c, 0.5 * s.dt);
+    for (int i = begin; i < end; i++) {
+      if (c.bodies[i].inverse_mass == 0)
+        continue;
+      advance<body_forces>(c.grains[i], c.bodies[i], force_on(c, i), s, squares, travels ? travel + i : nullptr);
+      discs.add(i);
+    }
+    discs.finish();
     fastest.see(squares);
-    expand(c, begin, end, 0.5 * s.dt);
   });
 }
 
