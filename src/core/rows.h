@@ -47,7 +47,8 @@ template <int W> using Quads = typename Raw<W>::type[4];
 
 // The first four values of W rows and the second four.
 template <int W>
-inline void load_quads(Quads<W> &first, Quads<W> &second, const Disc<double> *discs, const int *index) {
+[[gnu::always_inline]] inline void load_quads(Quads<W> &first, Quads<W> &second, const Disc<double> *discs,
+                                              const int *index) {
   auto row = [=](int i) { return &discs[index[i]].x; };
   for (int i = 0; i < 4; i++) {
     if constexpr (W == 8) {
@@ -64,7 +65,8 @@ inline void load_quads(Quads<W> &first, Quads<W> &second, const Disc<double> *di
   }
 }
 
-template <int W> inline void store_quads(const Quads<W> &q, Forces<double> *slots, const int *index) {
+template <int W>
+[[gnu::always_inline]] inline void store_quads(const Quads<W> &q, Forces<double> *slots, const int *index) {
   auto row = [=](int i) { return &slots[index[i]].fx; };
   for (int i = 0; i < 4; i++) {
     if constexpr (W == 8) {
@@ -79,20 +81,21 @@ template <int W> inline void store_quads(const Quads<W> &q, Forces<double> *slot
 }
 
 // Every other value of a and of b, in turn: of two rows of four values a, b: a0 b0 a2 b2, or a1 b1 a3 b3.
-template <int odd, class R, std::size_t... l> inline R zip(R a, R b, std::index_sequence<l...>) {
+template <int odd, class R, std::size_t... l> [[gnu::always_inline]] inline R zip(R a, R b, std::index_sequence<l...>) {
   constexpr int W = sizeof...(l);
   return __builtin_shufflevector(a, b, (int(l - l % 2) + odd + (l % 2 ? W : 0))...);
 }
 
 // Of each four values the first (0) or last (1) two of a, then those of b.
-template <int last, class R, std::size_t... l> inline R pack(R a, R b, std::index_sequence<l...>) {
+template <int last, class R, std::size_t... l>
+[[gnu::always_inline]] inline R pack(R a, R b, std::index_sequence<l...>) {
   constexpr int W = sizeof...(l);
   return __builtin_shufflevector(a, b, (int(l - l % 4 + l % 2) + 2 * last + (l % 4 < 2 ? 0 : W))...);
 }
 
 // Quads of rows to four vectors of one value each, or back: each block of four by four, or two by
 // two, is transposed.
-template <int W> inline void transpose(Quads<W> &q) {
+template <int W> [[gnu::always_inline]] inline void transpose(Quads<W> &q) {
   constexpr std::make_index_sequence<W> lanes;
   if constexpr (W == 2) {
     const auto a = q[0], b = q[1], c = q[2], d = q[3];
@@ -105,7 +108,8 @@ template <int W> inline void transpose(Quads<W> &q) {
 }
 
 // opposite() of quad i of forces.
-template <class R, std::size_t... l> inline R opposite_quad(R q, int i, std::index_sequence<l...>) {
+template <class R, std::size_t... l>
+[[gnu::always_inline]] inline R opposite_quad(R q, int i, std::index_sequence<l...>) {
   if constexpr (sizeof...(l) == 2)
     return i < 2 ? -q : __builtin_shufflevector(q, q, 1, 0);
   return __builtin_shufflevector(q, q, int(l % 4 < 2 ? l : l ^ 1)...) * R{(l % 4 < 2 ? -1.0 : 1.0)...};
@@ -113,7 +117,8 @@ template <class R, std::size_t... l> inline R opposite_quad(R q, int i, std::ind
 
 // Differences are taken of whole rows, before they are transposed.
 template <class Abi>
-inline Relative<Lanes<Abi>> load_relative(const Disc<double> *discs, const int *a, const int *b, Lanes<Abi>) {
+[[gnu::always_inline]] inline Relative<Lanes<Abi>> load_relative(const Disc<double> *discs, const int *a, const int *b,
+                                                                 Lanes<Abi>) {
   using V = Lanes<Abi>;
   constexpr int W = V::size();
   Quads<W> of_a, of_b, rest_of_a, rest_of_b;
@@ -136,15 +141,16 @@ inline Relative<Lanes<Abi>> load_relative(const Disc<double> *discs, const int *
           V(rest_of_b[3])};
 }
 
-template <class Abi> inline Lanes<Abi> load(const double *column, Lanes<Abi>) {
+template <class Abi> [[gnu::always_inline]] inline Lanes<Abi> load(const double *column, Lanes<Abi>) {
   return Lanes<Abi>(column, stdx::vector_aligned);
 }
-template <class Abi> inline void store(double *column, Lanes<Abi> value) {
+template <class Abi> [[gnu::always_inline]] inline void store(double *column, Lanes<Abi> value) {
   value.copy_to(column, stdx::vector_aligned);
 }
 
 template <class Abi>
-inline void store_forces(Forces<double> *slots, const int *slot_a, const int *slot_b, const Forces<Lanes<Abi>> &f) {
+[[gnu::always_inline]] inline void store_forces(Forces<double> *slots, const int *slot_a, const int *slot_b,
+                                                const Forces<Lanes<Abi>> &f) {
   constexpr int W = Lanes<Abi>::size();
   Quads<W> on_a{raw(f.fx), raw(f.fy), raw(f.torque_a), raw(f.torque_b)}, on_b;
   transpose<W>(on_a);

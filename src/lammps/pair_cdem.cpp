@@ -310,8 +310,8 @@ void PairCDEM::build_list() {
   choose_skin();
   divide_into_blocks();
   find_pairs();
-  pairs.for_each([this](int k, const cdem::Material &) {
-    set_constants(k);
+  pairs.for_each([this](int k, const cdem::Material &material) {
+    set_constants(k, material);
     recall_history(k);
   });
   std::vector<int> row_starts;
@@ -409,14 +409,16 @@ void PairCDEM::find_pairs() {
   });
 }
 
-void PairCDEM::set_constants(int k) {
+void PairCDEM::set_constants(int k, const cdem::Material &material) {
   const int i = rows.grain(pairs.a[k]), j = rows.grain(pairs.b[k]);
   const double mi = atom->rmass[i], mj = atom->rmass[j];
   const double m = !integrate->is_free(j) ? mi : !integrate->is_free(i) ? mj : mi * mj / (mi + mj);
   const double ra = rows.radius(pairs.a[k]), rb = rows.radius(pairs.b[k]);
   pairs.radius_sum[k] = ra + rb;
   pairs.half_difference[k] = 0.5 * (ra - rb);
-  pairs.root_mass[k] = 2 * std::sqrt(m);
+  const cdem::StepRule step = integrate->step_rule();
+  const double h = material.dn / std::sqrt(material.kn), stiffness = material.kn * step.dt * step.dt / m;
+  pairs.root_mass[k] = 2 * std::sqrt(m) * cdem::dashpot_in_steps(h, stiffness, 2 * step.forward / step.dt);
 }
 
 void PairCDEM::recall_history(int k) {

@@ -109,7 +109,7 @@ private:
   void divide_into_blocks();
   template <class Visit> void for_each_candidate(Visit) const;
   void find_pairs();
-  void set_constants(int k);
+  void set_constants(int k, const cdem::Material &);
   void recall_history(int k);
 
   void pair_forces(int block);

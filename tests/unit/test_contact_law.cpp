@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 using namespace cdem;
 
@@ -214,4 +215,21 @@ TEST(Presence, OpenedAfterAFractionOfTheStep) {
 
 TEST(Presence, ApartBeforeAndAfter) { EXPECT_EQ(presence(-1e-6, 0.1, 1e-7).dashpot, 0); }
 
+// The scheme that a pair sees, alone: velocity Verlet, the dashpot's velocity carried forward by half a step. The decay
+// of x'' + 2 h x' + x = 0 over a step is exp(-h dt); that of a sequence of lambda^n is its product of two neighbours
+// less the square between, here and one step on.
+TEST(ContactLaw, ScaledDashpotsDecayAsWithoutSteps) {
+  for (double h : {0.05, 0.215, 0.5})
+    for (double dt : {0.3, 0.15}) {
+      const double c = 2 * h * dashpot_in_steps(h, dt * dt, 1);
+      std::vector<double> x{1};
+      for (double half = 0, a = 0; x.size() < 60;) {
+        x.push_back(x.back() + dt * half);
+        a = -x.back() - c * (half + 0.5 * dt * a);
+        half += dt * a;
+      }
+      auto area = [&](int n) { return x[n] * x[n] - x[n - 1] * x[n + 1]; };
+      EXPECT_NEAR(-std::log(area(51) / area(50)) / (2 * h * dt), 1, 0.15 * dt * dt) << h << ' ' << dt;
+    }
+}
 } // namespace
