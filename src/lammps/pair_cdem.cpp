@@ -290,6 +290,7 @@ double PairCDEM::largest_reach() const {
 }
 
 void PairCDEM::build_list() {
+  listed.assign(atom->tag, atom->tag + atom->nlocal + atom->nghost);
   divide_into_blocks();
   find_pairs();
   pairs.for_each([this](int k, const cdem::Material &) {
@@ -497,22 +498,24 @@ double PairCDEM::single(int i, int j, int itype, int jtype, double, double, doub
   return energy;
 }
 
+// Grains may have come and gone since the list was built: only what was noted then is of use here.
 void PairCDEM::store_history() {
   if (!history_in_list)
     return;
-  auto for_each_memory = [this](auto visit) { // visit(grain, contact as it remembers it)
+  const int own_grains = block_starts.back();
+  auto for_each_memory = [&](auto visit) { // visit(grain, contact as it remembers it)
     pairs.for_each([&](int k, const cdem::Material &) {
       const double es = pairs.es[k], en = law == cdem::Law::incremental ? pairs.en[k] : 0;
       if (es == 0 && en == 0)
         return;
       const int a = pairs.a[k], b = pairs.b[k];
       for (const auto &[own, other] : {std::pair{a, b}, std::pair{b, a}})
-        if (rows.grain(own) < atom->nlocal)
+        if (rows.grain(own) < own_grains)
           visit(rows.grain(own),
-                FixCDEMHistory::Contact{atom->tag[rows.grain(other)], rows.disc(own), rows.disc(other), es, en});
+                FixCDEMHistory::Contact{listed[rows.grain(other)], rows.disc(own), rows.disc(other), es, en});
     });
   };
-  std::vector<int> count(atom->nlocal, 0);
+  std::vector<int> count(own_grains, 0);
   for_each_memory([&](int i, const auto &) { count[i]++; });
   history->make_room(count);
   for_each_memory([this](int i, const auto &contact) { history->add(i, contact); });

@@ -135,6 +135,7 @@ private:
   std::vector<Place> neighbours_built_at; // of own grains
   std::vector<Pose> discs_built_at;       // of all grains, empty unless clumps
 
+  std::vector<tagint> listed;    // ids of all grains, ghosts too, when the list of disc pairs was built
   std::vector<int> block_starts; // grains block_starts[k] ... block_starts[k+1]-1 are block k
   cdem::DiscPairs pairs;
   cdem::ForceSlots slots;
