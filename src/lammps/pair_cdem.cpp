@@ -136,6 +136,13 @@ void PairCDEM::check_setting() const {
     error->all(FLERR, "Pair style cdem needs 'comm_modify vel yes'");
   if (!integrate)
     error->all(FLERR, "Pair style cdem needs a fix cdem/integrate: atoms outside its group are walls");
+  if (update->whichflag == 2)
+    error->all(FLERR, "Pair style cdem: minimize has no steps of time to follow the contacts in; use run, with drag");
+  if (!(neighbor->skin > 0))
+    error->all(FLERR,
+               "Pair style cdem: the skin of the neighbour list is {}, must be positive: a contact acts on in the "
+               "step in which it opens",
+               neighbor->skin);
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->radius[i] > 0))
       error->one(FLERR, "Pair style cdem: atom {} has radius {}, must be positive", atom->tag[i], atom->radius[i]);
@@ -160,6 +167,18 @@ void PairCDEM::init_style() {
     mine[atom->type[i]] = std::max(mine[atom->type[i]], atom->radius[i]);
   largest_radius.resize(mine.size());
   MPI_Allreduce(mine.data(), largest_radius.data(), int(mine.size()), MPI_DOUBLE, MPI_MAX, world);
+  check_periods();
+}
+
+// Two grains have one history for each pair of their discs, so they may not touch on both sides of a period.
+void PairCDEM::check_periods() const {
+  const double needed = 4 * *std::max_element(largest_radius.begin(), largest_radius.end());
+  for (int k = 0; k < 2; k++)
+    if (domain->periodicity[k] && domain->prd[k] < needed)
+      error->all(FLERR,
+                 "Pair style cdem: the box is periodic over {} m in {}, must be {} m or more (two diameters of the "
+                 "largest grain): two grains would touch on both sides",
+                 domain->prd[k], k ? "y" : "x", needed);
 }
 
 double PairCDEM::init_one(int i, int j) {
@@ -274,7 +293,11 @@ bool PairCDEM::turned_out_of_list() const {
 double PairCDEM::room() const {
   double most = 0;
   for (int i = 0; i < atom->nlocal; i++) {
-    most = std::max(most, neighbours_built_at[i].moved(rows.of_grain(i)));
+    const double moved = neighbours_built_at[i].moved(rows.of_grain(i));
+    if (!std::isfinite(moved))
+      error->one(FLERR, "Pair style cdem: atom {} is at ({}, {})", atom->tag[i], rows.of_grain(i).x,
+                 rows.of_grain(i).y);
+    most = std::max(most, moved);
     if (rows.has_clumps())
       most = std::max(most, moved_and_turned(i));
   }
@@ -373,6 +396,11 @@ void PairCDEM::find_pairs() {
 
 void PairCDEM::set_constants(int k) {
   const int i = rows.grain(pairs.a[k]), j = rows.grain(pairs.b[k]);
+  if (rows[pairs.a[k]].x == rows[pairs.b[k]].x && rows[pairs.a[k]].y == rows[pairs.b[k]].y)
+    error->one(FLERR,
+               "Pair style cdem: discs of atoms {} and {} have the same centre ({}, {}): no direction to push them "
+               "apart",
+               atom->tag[i], atom->tag[j], rows[pairs.a[k]].x, rows[pairs.a[k]].y);
   const double mi = atom->rmass[i], mj = atom->rmass[j];
   const double m = !integrate->is_free(j) ? mi : !integrate->is_free(i) ? mj : mi * mj / (mi + mj);
   const double ra = rows.radius(pairs.a[k]), rb = rows.radius(pairs.b[k]);

@@ -91,6 +91,7 @@ public:
 private:
   void allocate();
   void check_setting() const;
+  void check_periods() const;
 
   bool row_before(int, int) const;
   bool turned_out_of_list() const;
