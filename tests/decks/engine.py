@@ -20,7 +20,7 @@ import numpy as np
 DECKS = Path(__file__).resolve().parent
 PROGRAM = Path(os.environ.get("SHEARBOX_LMP", DECKS.parents[1] / "build" / "lmp_cdem"))
 GRID = {1: (1, 1), 2: (2, 1), 4: (2, 2)}  # ranks along x and y: a border always passes through the middle of the box
-TIMEOUT = 120  # s; no case here takes more than a few, but on a busy machine ranks wait for each other
+TIMEOUT = float(os.environ.get("SHEARBOX_TIMEOUT", 120))  # s; a few are enough, but on a busy machine ranks wait
 DENSITY = 26.5  # kg/m^2, areal: 2650 kg/m^3 x 0.01 m
 
 # Open MPI: more ranks than cores is fine for cases this small, and so is root. Without mpirun no daemon is wanted, and
