@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from engine import DENSITY, Disc, run, same_bits
-from scenes import cloud, kinetic_energy
+from engine import Disc, Run, run, same_bits
+from scenes import cloud
 
 START = "include ${decks}/start.in\n"
 END = "include ${decks}/end.in\n"
@@ -109,7 +109,7 @@ def invariants(frame: dict[str, np.ndarray]) -> np.ndarray:
     return np.array([[a.sum(), b.sum()] for a, b in zip(sums, sizes, strict=True)])
 
 
-def check_swarm(out, falls_by: float) -> None:
+def check_swarm(out: Run, falls_by: float) -> None:
     before, after = (invariants(frame.columns) for frame in out.dump("d.dump"))
     assert (np.abs(after - before)[:, 0] / before[:, 1]).max() < 2e-13
     energy = out.thermo["c_e"]
