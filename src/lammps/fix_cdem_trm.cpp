@@ -57,6 +57,8 @@ void FixCDEMTRM::post_integrate() {
 }
 
 void FixCDEMTRM::add(const GrainRows &rows) {
+  if (atom->nlocal == 0) // then there is no row 0
+    return;
   const cdem::Disc<double> *const grain = &rows.of_grain(0);
   add_step([=](int i) { return Velocity{grain[i].vx_half, grain[i].vy_half, grain[i].omega_half}; });
 }
