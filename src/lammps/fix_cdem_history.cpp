@@ -52,16 +52,19 @@ const FixCDEMHistory::Contact *FixCDEMHistory::find_contact(int i, tagint partne
   return nullptr;
 }
 
+// The next rebuild, and the next run, may find other grains, in another order: from here on the history is with the
+// grains.
+void FixCDEMHistory::take() {
+  if (pair)
+    pair->release_history();
+}
+
 void FixCDEMHistory::pre_exchange() {
   if (pair)
     pair->leave_list();
 }
 
-// The next run may find other grains, in another order: from here on the history is with the grains.
-void FixCDEMHistory::post_run() {
-  if (pair)
-    pair->release_history();
-}
+void FixCDEMHistory::post_run() { take(); }
 
 // Called before the grains are packed. LAMMPS expects a global block: an empty one.
 void FixCDEMHistory::write_restart(FILE *fp) {
@@ -81,7 +84,10 @@ void FixCDEMHistory::grow_arrays(int nmax) {
   count.resize(nmax, 0);
 }
 
+// A fix that comes before this one may move grains to other ranks (balance) or take some away (evaporate) when its own
+// pre_exchange() is called: these are the first words that we hear of it.
 void FixCDEMHistory::copy_arrays(int i, int j, int) {
+  take();
   first[j] = first[i];
   count[j] = count[i];
 }
@@ -111,9 +117,15 @@ int FixCDEMHistory::unpack(int i, const double *buf) {
   return int(in - buf);
 }
 
-int FixCDEMHistory::pack_exchange(int i, double *buf) { return pack(i, buf); }
+int FixCDEMHistory::pack_exchange(int i, double *buf) {
+  take();
+  return pack(i, buf);
+}
 
-int FixCDEMHistory::unpack_exchange(int i, double *buf) { return unpack(i, buf); }
+int FixCDEMHistory::unpack_exchange(int i, double *buf) {
+  take();
+  return unpack(i, buf);
+}
 
 int FixCDEMHistory::pack_restart(int i, double *buf) {
   const int n = 1 + pack(i, buf + 1);

@@ -49,6 +49,7 @@ public:
   PairCDEM *pair = nullptr;
 
 private:
+  void take(); // from the pair style's list, if that has it
   int pack(int i, double *buf) const;
   int unpack(int i, const double *buf);
 

@@ -159,7 +159,8 @@ template <class Value> double FixCDEMIntegrate::scene_minimum(Value value) const
 
 void FixCDEMIntegrate::reset_dt() {
   const double dt = update->dt;
-  weight = scene_minimum([dt](const auto &...grain) { return cdem::prediction_weight(grain..., dt); });
+  const double least = scene_minimum([dt](const auto &...grain) { return cdem::prediction_weight(grain..., dt); });
+  weight = std::min(least, 1.0); // infinite without grains
 }
 
 // The styles of this package look to it themselves.

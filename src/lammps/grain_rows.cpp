@@ -72,13 +72,27 @@ void GrainRows::fill_grain(int i, double forward) {
     bodies[i].angle = state[FixCDEMIntegrate::ANGLE];
 }
 
+// The image of a grain is shifted by whole periods of the box, which may be tilted; and it moves as the box is deformed
+// (fix deform remap v).
 int GrainRows::pack(int n, const int *list, double *buf, int pbc_flag, const int *pbc) const {
-  const double dx = pbc_flag ? pbc[0] * domain->xprd : 0, dy = pbc_flag ? pbc[1] * domain->yprd : 0;
+  double dx = 0, dy = 0, dvx = 0, dvy = 0;
+  if (pbc_flag) {
+    const double *const rate = domain->h_rate;
+    dx = pbc[0] * domain->xprd + pbc[5] * domain->xy;
+    dy = pbc[1] * domain->yprd;
+    dvx = pbc[0] * rate[0] + pbc[5] * rate[5];
+    dvy = pbc[1] * rate[1];
+  }
   const double *const begin = buf;
   for (int k = 0; k < n; k++) {
-    std::copy_n(&grains[list[k]].x, sizeof(Disc) / sizeof(double), buf);
-    buf[0] += dx;
-    buf[1] += dy;
+    Disc image = grains[list[k]];
+    image.x += dx;
+    image.y += dy;
+    if (domain->deform_vremap && (atom->mask[list[k]] & domain->deform_groupbit)) {
+      image.vx_half += dvx, image.vx += dvx;
+      image.vy_half += dvy, image.vy += dvy;
+    }
+    std::copy_n(&image.x, sizeof(Disc) / sizeof(double), buf);
     buf += sizeof(Disc) / sizeof(double);
     if (clumps)
       *buf++ = bodies[list[k]].angle;

@@ -139,6 +139,13 @@ void PairCDEM::check_setting() const {
     error->all(FLERR, "Pair style cdem needs 'comm_modify vel yes'");
   if (!integrate)
     error->all(FLERR, "Pair style cdem needs a fix cdem/integrate: atoms outside its group are walls");
+  if (update->whichflag == 2)
+    error->all(FLERR, "Pair style cdem: minimize has no steps of time to follow the contacts in; use run, with drag");
+  if (!(neighbor->skin > 0))
+    error->all(FLERR,
+               "Pair style cdem: the skin of the neighbour list is {}, must be positive: a contact acts on in the "
+               "step in which it opens",
+               neighbor->skin);
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->radius[i] > 0))
       error->one(FLERR, "Pair style cdem: atom {} has radius {}, must be positive", atom->tag[i], atom->radius[i]);
@@ -164,6 +171,18 @@ void PairCDEM::init_style() {
     mine[atom->type[i]] = std::max(mine[atom->type[i]], atom->radius[i]);
   largest_radius.resize(mine.size());
   MPI_Allreduce(mine.data(), largest_radius.data(), int(mine.size()), MPI_DOUBLE, MPI_MAX, world);
+  check_periods();
+}
+
+// Two grains have one history for each pair of their discs, so they may not touch on both sides of a period.
+void PairCDEM::check_periods() const {
+  const double needed = 4 * *std::max_element(largest_radius.begin(), largest_radius.end());
+  for (int k = 0; k < 2; k++)
+    if (domain->periodicity[k] && domain->prd[k] < needed)
+      error->all(FLERR,
+                 "Pair style cdem: the box is periodic over {} m in {}, must be {} m or more (two diameters of the "
+                 "largest grain): two grains would touch on both sides",
+                 domain->prd[k], k ? "y" : "x", needed);
 }
 
 double PairCDEM::init_one(int i, int j) {
@@ -263,8 +282,13 @@ double PairCDEM::Place::moved(const cdem::Disc<double> &now) const {
 
 double PairCDEM::room() const {
   double most = 0;
-  for (int i = 0; i < atom->nlocal; i++)
-    most = std::max(most, neighbours_built_at[i].moved(rows.of_grain(i)));
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double moved = neighbours_built_at[i].moved(rows.of_grain(i));
+    if (!std::isfinite(moved))
+      error->one(FLERR, "Pair style cdem: atom {} is at ({}, {})", atom->tag[i], rows.of_grain(i).x,
+                 rows.of_grain(i).y);
+    most = std::max(most, moved);
+  }
   return 0.5 * neighbor->skin - most;
 }
 
@@ -308,6 +332,7 @@ double PairCDEM::largest_reach() const {
 void PairCDEM::build_list() {
   kernels = cdem::kernels({law, limit_damping, audit != nullptr}, instructions);
   choose_skin();
+  listed.assign(atom->tag, atom->tag + atom->nlocal + atom->nghost);
   divide_into_blocks();
   find_pairs();
   pairs.for_each([this](int k, const cdem::Material &material) {
@@ -411,6 +436,11 @@ void PairCDEM::find_pairs() {
 
 void PairCDEM::set_constants(int k, const cdem::Material &material) {
   const int i = rows.grain(pairs.a[k]), j = rows.grain(pairs.b[k]);
+  if (rows[pairs.a[k]].x == rows[pairs.b[k]].x && rows[pairs.a[k]].y == rows[pairs.b[k]].y)
+    error->one(FLERR,
+               "Pair style cdem: discs of atoms {} and {} have the same centre ({}, {}): no direction to push them "
+               "apart",
+               atom->tag[i], atom->tag[j], rows[pairs.a[k]].x, rows[pairs.a[k]].y);
   const double mi = atom->rmass[i], mj = atom->rmass[j];
   const double m = !integrate->is_free(j) ? mi : !integrate->is_free(i) ? mj : mi * mj / (mi + mj);
   const double ra = rows.radius(pairs.a[k]), rb = rows.radius(pairs.b[k]);
@@ -451,7 +481,7 @@ double PairCDEM::overlap(int k) const {
 }
 
 // A pair across a border is on two ranks (or twice on one, if periodic): the owner of disc a counts it.
-bool PairCDEM::counts(int k) const { return rows.grain(pairs.a[k]) < atom->nlocal; }
+bool PairCDEM::counts(int k) const { return rows.grain(pairs.a[k]) < block_starts.back(); }
 
 // Also in the step after it opened, in which its dashpot may have a share left.
 bool PairCDEM::acts(int k) const {
@@ -479,12 +509,12 @@ PairCDEM::SpringEnergy PairCDEM::spring_energy() const {
 }
 
 void PairCDEM::leave_list() {
-  if (audit) {
+  if (audit && history_in_list) {
     rows.fill(0, atom->nlocal, 0);
     exchange_ghosts();
     finish_step_in_books();
   }
-  store_history();
+  release_history();
 }
 
 // The rows have moved, and a new list won't know the last forces of the dashpots. Half of them acted in this step; the
@@ -579,23 +609,25 @@ double PairCDEM::single(int i, int j, int itype, int jtype, double, double, doub
   return energy;
 }
 
+// Grains may have come and gone since the list was built: only what was noted then is of use here.
 void PairCDEM::store_history() {
   if (!history_in_list)
     return;
   book_losses();
-  auto for_each_memory = [this](auto visit) { // visit(grain, contact as it remembers it)
+  const int own_grains = block_starts.back();
+  auto for_each_memory = [&](auto visit) { // visit(grain, contact as it remembers it)
     pairs.for_each([&](int k, const cdem::Material &) {
       const double es = pairs.es[k], en = law == cdem::Law::incremental ? pairs.en[k] : 0;
       if (es == 0 && en == 0)
         return;
       const int a = pairs.a[k], b = pairs.b[k];
       for (const auto &[own, other] : {std::pair{a, b}, std::pair{b, a}})
-        if (rows.grain(own) < atom->nlocal)
+        if (rows.grain(own) < own_grains)
           visit(rows.grain(own),
-                FixCDEMHistory::Contact{atom->tag[rows.grain(other)], rows.disc(own), rows.disc(other), es, en});
+                FixCDEMHistory::Contact{listed[rows.grain(other)], rows.disc(own), rows.disc(other), es, en});
     });
   };
-  std::vector<int> count(atom->nlocal, 0);
+  std::vector<int> count(own_grains, 0);
   for_each_memory([&](int i, const auto &) { count[i]++; });
   history->make_room(count);
   for_each_memory([this](int i, const auto &contact) { history->add(i, contact); });

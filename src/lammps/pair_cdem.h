@@ -101,6 +101,7 @@ public:
 private:
   void allocate();
   void check_setting() const;
+  void check_periods() const;
 
   bool row_before(int, int) const;
 
@@ -149,6 +150,7 @@ private:
   double list_speed = -1;                 // at which the farthest got away from the last list (m a step), -1: unknown
   bigint list_step = 0;                   // when the list was built
 
+  std::vector<tagint> listed;    // ids of all grains, ghosts too, when the list of disc pairs was built
   std::vector<int> block_starts; // grains block_starts[k] ... block_starts[k+1]-1 are block k
   cdem::DiscPairs pairs;
   cdem::ForceSlots slots;

@@ -198,8 +198,10 @@ void VerletCDEM::measure_room() {
 // rebuilt in the same step for any number of ranks, and whatever is written in between.
 bool VerletCDEM::rebuild_is_due(int steps, const cdem::Fastest &fastest) {
   constexpr double SAFETY = 4, LEAST = 0.05;
-  const double mine = update->dt * fastest.speed(reach);
-  MPI_Allreduce(&mine, &stride, 1, MPI_DOUBLE, MPI_MAX, world);
+  const double mine[] = {fastest.vx2, fastest.vy2, fastest.omega2, reach};
+  double all[4]; // of all ranks, each by itself: the speed of a rank's own largest components depends on who is there
+  MPI_Allreduce(mine, all, 4, MPI_DOUBLE, MPI_MAX, world);
+  stride = update->dt * cdem::Fastest{all[0], all[1], all[2]}.speed(all[3]);
   travelled += steps * stride;
   const double needed = std::max(SAFETY * stride, LEAST * 0.5 * neighbor->skin);
   if (travelled + needed < room)

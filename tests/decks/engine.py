@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 import os
 import subprocess
+import tempfile
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,11 +21,13 @@ import numpy as np
 DECKS = Path(__file__).resolve().parent
 PROGRAM = Path(os.environ.get("SHEARBOX_LMP", DECKS.parents[1] / "build" / "lmp_cdem"))
 GRID = {1: (1, 1), 2: (2, 1), 4: (2, 2)}  # ranks along x and y: a border always passes through the middle of the box
-TIMEOUT = 120  # s; no case here takes more than a few, but on a busy machine ranks wait for each other
+TIMEOUT = float(os.environ.get("SHEARBOX_TIMEOUT", 120))  # s; a few are enough, but on a busy machine ranks wait
 DENSITY = 26.5  # kg/m^2, areal: 2650 kg/m^3 x 0.01 m
 
 # Open MPI: more ranks than cores is fine for cases this small, and so is root. Without mpirun no daemon is wanted, and
-# after an error no second of grace: both take longer than the case.
+# after an error no second of grace: both take longer than the case. Its folder is our own: one that is shared with other
+# programs may vanish while we start, as they end.
+SESSIONS = tempfile.TemporaryDirectory(prefix="mpi-")
 ENVIRONMENT = os.environ | {
     "OMP_NUM_THREADS": "1",
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
@@ -32,6 +35,7 @@ ENVIRONMENT = os.environ | {
     "OMPI_MCA_mpi_yield_when_idle": "1",
     "OMPI_MCA_ess_singleton_isolated": "1",
     "OMPI_MCA_odls_base_sigkill_timeout": "0",
+    "OMPI_MCA_orte_tmpdir_base": SESSIONS.name,
 }
 
 
