@@ -66,7 +66,7 @@ def deck(name: str, folder: Path = HERE) -> str:
     return (folder / f"{name}.in").read_text()
 
 
-# --- impacts -----------------------------------------------------------------------------------------------------------
+# --- impacts --------------------------------------------------------------------------------------------------------
 SPEED = 0.1  # m/s
 OBLIQUITIES = (0.0, 0.3, 0.6, 0.9)  # sine of the angle between approach and normal
 PHASES = 16
@@ -95,7 +95,7 @@ def impacts_measure(job: Job, folder: Path) -> Values:
     return {"obliquity": OBLIQUITIES, "left": left.max(axis=1).tolist()}
 
 
-# --- orbit -------------------------------------------------------------------------------------------------------------
+# --- orbit ----------------------------------------------------------------------------------------------------------
 ORBIT_SPEED = 1.0  # m/s
 
 
@@ -113,7 +113,7 @@ def orbit_measure(job: Job, folder: Path) -> Values:
     return {"turns": np.linspace(0, 1, 21).tolist(), "overlap": thermo["v_overlap"].tolist()}
 
 
-# --- column ------------------------------------------------------------------------------------------------------------
+# --- column ---------------------------------------------------------------------------------------------------------
 GRAINS = 12
 STEPS = 10_000_000
 
@@ -157,7 +157,7 @@ def column_discs(shape: str, speed: float, away: float) -> list[Disc]:
 
 
 def column_measure(job: Job, folder: Path) -> Values:
-    """100 samples of energy, height of the lid (means of an interval), and of lag and overlap, sums over the contacts."""
+    """100 samples of energy, height of the lid (means of an interval), lag and overlap (sums over the contacts)."""
     shake = job.options.get("shake", 0.0)
     away = job.options.get("away", 0.0)
     discs = column_discs(job.options["shape"], job.options["speed"], away)
@@ -193,7 +193,7 @@ def springs(frame: Frame) -> Values:
     }
 
 
-# --- ring --------------------------------------------------------------------------------------------------------------
+# --- ring -----------------------------------------------------------------------------------------------------------
 
 
 def ring() -> list[Job]:
@@ -219,20 +219,18 @@ def ring_measure(job: Job, folder: Path) -> Values:
     }
 
 
-# --- bed ---------------------------------------------------------------------------------------------------------------
+# --- bed ------------------------------------------------------------------------------------------------------------
 SMALL: Values = {"ngrains": 120, "width": 0.06, "half_height": 0.03}
 DECKS: Values = {"decks": INPUT, "here": HERE}
 LOOKS = 10
 
 
 def bed() -> list[Job]:
-    """Shaken weakly, so that the contacts on the whole stay closed, and strongly."""
-    jobs = []
-    for shake in (0.03, 0.3, 3.0):
-        jobs += [Job("bed", law, 1.0, {"shake": shake, "seconds": 6.7}, 150) for law in LAWS]
-    for shake in (0.3, 3.0):
-        jobs += [Job("bed", law, 0.25, {"shake": shake, "seconds": 0.67}, 60) for law in LAWS]
-    return jobs
+    """Shaken so that few contacts open, for 10^7 steps; weakly, and so that most open; and with a finer step."""
+    whole = [Job("bed", law, 1.0, {"shake": 0.3, "seconds": 6.7}, 150) for law in LAWS]
+    short = [Job("bed", law, 1.0, {"shake": shake, "seconds": 2.0}, 50) for shake in (0.03, 3.0) for law in LAWS]
+    fine = [Job("bed", law, 0.25, {"shake": shake, "seconds": 0.4}, 45) for shake in (0.3, 3.0) for law in LAWS]
+    return [*whole, *short, *fine]
 
 
 def specimen(work: Path, seed: int, **model: Any) -> Path:
@@ -279,7 +277,7 @@ def look(state: Path, folder: Path, given: Values) -> Values:
     return springs(run(deck("look"), folder, state=state, **given).dump("springs.dump")[-1])
 
 
-# --- shear -------------------------------------------------------------------------------------------------------------
+# --- shear ----------------------------------------------------------------------------------------------------------
 
 
 def shear() -> list[Job]:

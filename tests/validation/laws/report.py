@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numpy as np
-from cases import CASES, LAWS, ORBIT_SPEED, ROOT, SPEED, D, Job, Values
+from cases import CASES, LAWS, ORBIT_SPEED, ROOT, SPEED, STEPS, D, Job, Values
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -66,7 +66,7 @@ def both(laws: dict[str, Values], show: Callable[[Values], str]) -> list[str]:
     return [show(laws[law]) for law in LAWS]
 
 
-# --- impacts -----------------------------------------------------------------------------------------------------------
+# --- impacts --------------------------------------------------------------------------------------------------------
 def impacts_table(found: Found) -> str:
     sines = found[0][1]["obliquity"]
     head = ["dt (s)", "direct, all", *(f"incremental, sin = {sine:g}" for sine in sines)]
@@ -87,8 +87,10 @@ def impacts_figure(found: Found) -> Figure:
         if sine:
             label = "closed form" if k == 1 else None
             axes.loglog(dt, left_by_turning(dt, sine), ":", color="#4d4d4d", lw=1, label=label)
-    axes.loglog(dt, [max(laws["direct"]["left"]) for _, laws in pairs], "o-", ms=4, color=COLOURS["direct"], label="direct")
-    axes.set(xlabel="time step (s)", ylabel="force left / largest force", title="Impacts at 0.1 m/s", ylim=(1e-12, 1e-3))
+    left = [max(laws["direct"]["left"]) for _, laws in pairs]
+    axes.loglog(dt, left, "o-", ms=4, color=COLOURS["direct"], label="direct")
+    axes.set(xlabel="time step (s)", ylabel="force left / largest force", title="Impacts at 0.1 m/s")
+    axes.set_ylim(1e-12, 1e-3)
     axes.legend(loc="center", bbox_to_anchor=(0.5, 0.42), ncols=2, fontsize=7)
     return figure
 
@@ -99,7 +101,7 @@ def left_by_turning(dt: np.ndarray, sine: float) -> np.ndarray:
     return SPEED * sine**2 / cosine * dt / (2 * D) * math.pi
 
 
-# --- orbit -------------------------------------------------------------------------------------------------------------
+# --- orbit ----------------------------------------------------------------------------------------------------------
 def orbit_table(found: Found) -> str:
     rows = []
     for job, laws in side_by_side(found):
@@ -123,7 +125,7 @@ def orbit_figure(found: Found) -> Figure:
     return figure
 
 
-# --- column ------------------------------------------------------------------------------------------------------------
+# --- column ---------------------------------------------------------------------------------------------------------
 def column_table(found: Found) -> str:
     def what(job: Job) -> str:
         options = job.options
@@ -164,10 +166,10 @@ def column_figure(found: Found) -> Figure:
         if job.law == "incremental":
             share = np.array(value["lag"][1:]) / value["overlap"][1:]
             style = "-" if job.options["shape"] == "zigzag" else ":"
-            steps = np.linspace(0, 1e7, len(value["lag"]))[1:]
+            steps = np.linspace(0, STEPS / 1e6, len(value["lag"]))[1:]
             colour = STEP_COLOURS.get(job.dt, "#4d4d4d")
             left.semilogy(steps, share, style, color=colour, label=f"{job.options['shape']}, {job.dt:g} s")
-    left.set(xlabel="steps", ylabel="lag / overlap", title="incremental: contacts stay closed", ylim=(1e-13, 3))
+    left.set(xlabel="million steps", ylabel="lag / overlap", title="incremental: contacts stay closed", ylim=(1e-12, 3))
     left.legend(ncols=2, fontsize=6.5)
     for job, value in closed:
         if job.options["shape"] == "zigzag" and job.dt in (1e-6, 1e-7):
@@ -182,7 +184,7 @@ def column_figure(found: Found) -> Figure:
 STEP_COLOURS = {1.3e-6: "#7b3294", 1e-6: "#e08214", 3e-7: "#17a2b8", 1e-7: "#8c510a"}
 
 
-# --- ring --------------------------------------------------------------------------------------------------------------
+# --- ring -----------------------------------------------------------------------------------------------------------
 def ring_table(found: Found) -> str:
     rows = []
     for job, laws in side_by_side(found):
@@ -191,7 +193,7 @@ def ring_table(found: Found) -> str:
     return table(["speed (m/s)", "dt (s)", "lag / overlap at the end: direct", "incremental"], rows)
 
 
-# --- bed ---------------------------------------------------------------------------------------------------------------
+# --- bed ------------------------------------------------------------------------------------------------------------
 def bed_table(found: Found) -> str:
     rows = []
     for job, laws in side_by_side(found):
@@ -200,40 +202,42 @@ def bed_table(found: Found) -> str:
                 f"{job.options['shake']:g}",
                 f"{laws['direct']['dt']:.2e}",
                 f"{laws['direct']['steps']:.1e}",
-                *both(laws, lambda v: f"{sum(v['end_lag'][5:]) / sum(v['end_overlap'][5:]):.1e}"),
+                *both(laws, lambda v: f"{v['end_lag'][-1] / v['end_overlap'][-1]:.1e}"),
                 *both(laws, lambda v: f"{1e6 * np.mean(v['end_overlap'][5:]) / np.mean(v['end_contacts'][5:]):.3f}"),
                 *both(laws, lambda v: f"{100 * sum(v['end_pulling'][5:]) / sum(v['end_contacts'][5:]):.1f}"),
                 *both(laws, lambda v: f"{np.mean(v['end_contacts'][5:]):.0f}"),
-                *both(laws, lambda v: f"{1e6 * (tenth(v['lid'], True) - v['lid'][0]):+.1f}"),
+                *both(laws, lambda v: f"{1e3 * np.mean(v['lid'][100:]):.4f}"),
                 *both(laws, lambda v: f"{1e3 * np.mean(v['spring'][100:]):.3f}"),
                 *both(laws, lambda v: f"{1e3 * np.mean(v['kinetic'][100:]):.4f}"),
             ]
         )
-    names = ["lag / overlap", "overlap a contact (µm)", "contacts that pull (%)", "contacts", "lid (µm)", "springs (mJ)"]
+    names = ["lag / overlap", "overlap a contact (µm)", "contacts that pull (%)", "contacts", "height (mm)", "springs (mJ)"]
     head = ["shaken by", "dt (s)", "steps", *(word for name in [*names, "motion (mJ)"] for word in (name, "incr."))]
-    return "First direct, then incremental; means of the second half of the run.\n\n" + table(head, rows)
+    return "First direct, then incremental. The lag at the end, all else means of the second half of the run.\n\n" + table(head, rows)
 
 
 def bed_figure(found: Found) -> Figure:
     figure = Figure(figsize=(7.2, 4.6), layout="constrained")
     panels = figure.subplots(2, 2)
     for shake, (heights, lags) in zip((0.3, 3.0), panels, strict=True):
-        for job, value in found:
-            if job.options["shake"] != shake:
-                continue
+        mine = [(job, value) for job, value in found if job.options["shake"] == shake]
+        start = mine[0][1]["lid"][0]
+        for job, value in mine:
             style = "-" if job.dt == 1 else "--"
             label = f"{job.law}, dt = {value['dt']:.2g} s"
-            time, lid = np.array(value["time"]), 1e3 * np.array(value["lid"])
-            heights.plot(time, lid, style, lw=0.8, color=COLOURS[job.law], label=label)
+            time, lid = np.array(value["time"]), 1e6 * (np.array(value["lid"]) - start)
+            if job.dt == 1:
+                heights.plot(time, lid, lw=0.8, color=COLOURS[job.law])
             looks = time[-1] * np.linspace(0.1, 1, len(value["end_lag"]))
-            lags.plot(looks, np.divide(value["end_lag"], value["end_overlap"]), "o" + style, ms=3, color=COLOURS[job.law])
-        heights.set(xlabel="time (s)", ylabel="height (mm)", title=f"force on the grains {shake:g} × the lid's")
-        lags.set(xlabel="time (s)", ylabel="lag / overlap", ylim=(-0.05, 1.05), title="sums over all contacts")
-    panels[0][0].legend(fontsize=7)
+            share = 100 * np.divide(value["end_lag"], value["end_overlap"])
+            lags.plot(looks, share, ("o" if job.dt == 1 else ".") + style, ms=3, color=COLOURS[job.law], label=label)
+        heights.set(xlabel="time (s)", ylabel="rise of the lid (µm)", title=f"force on the grains {shake:g} × the lid's")
+        lags.set(xlabel="time (s)", ylabel="lag / overlap (%)", title="sums over all contacts")
+    panels[0][1].legend(fontsize=7)
     return figure
 
 
-# --- shear -------------------------------------------------------------------------------------------------------------
+# --- shear ----------------------------------------------------------------------------------------------------------
 def shear_table(found: Found) -> str:
     rows = []
     for job, laws in side_by_side(found):
