@@ -2,9 +2,10 @@
 """What direct and incremental accumulation of the normal force have in common, and where they differ. See also
 tests/validation/laws.
 
-A sum of displacements along n misses the turning of n within a step: the distance of two centres grows by
-du_n + du_t^2/(2 D), D = r_i + r_j, and the sum takes du_n. So e_n falls behind k_n overlap by k_n u_t^2 dt/(2 D) per unit
-of time, always to the same side."""
+In a step with displacements du_n, du_t the distance D = r_i + r_j of two centres grows by du_n - du_t^2/(2 D), n being that
+of the step's end, and the sum takes du_n. So e_n falls behind k_n overlap by k_n u_t^2 dt/(2 D) per unit of time, always to
+the same side.
+"""
 
 from __future__ import annotations
 

@@ -154,7 +154,8 @@ def column_table(found: Found) -> str:
             ]
         )
     head = ["column", "dt (s)", "lag / overlap at the end: direct", "incremental", "lid: direct (nm)", "incremental"]
-    head += ["energy / that of motion: direct", "incremental", "contacts: direct", "incremental", "pull: direct", "incr."]
+    head += ["energy / that of motion: direct", "incremental", "contacts: direct", "incremental"]
+    head += ["pull: direct", "incremental"]
     return table(head, rows)
 
 
@@ -211,9 +212,11 @@ def bed_table(found: Found) -> str:
                 *both(laws, lambda v: f"{1e3 * np.mean(v['kinetic'][100:]):.4f}"),
             ]
         )
-    names = ["lag / overlap", "overlap a contact (µm)", "contacts that pull (%)", "contacts", "height (mm)", "springs (mJ)"]
-    head = ["shaken by", "dt (s)", "steps", *(word for name in [*names, "motion (mJ)"] for word in (name, "incr."))]
-    return "First direct, then incremental. The lag at the end, all else means of the second half of the run.\n\n" + table(head, rows)
+    names = ["lag / overlap", "overlap a contact (µm)", "contacts that pull (%)", "contacts", "height (mm)"]
+    names += ["springs (mJ)", "motion (mJ)"]
+    head = ["shaken by", "dt (s)", "steps", *(word for name in names for word in (name, "incr."))]
+    note = "First direct, then incremental. The lag at the end, all else means of the second half of the run.\n\n"
+    return note + table(head, rows)
 
 
 def bed_figure(found: Found) -> Figure:
@@ -231,7 +234,8 @@ def bed_figure(found: Found) -> Figure:
             looks = time[-1] * np.linspace(0.1, 1, len(value["end_lag"]))
             share = 100 * np.divide(value["end_lag"], value["end_overlap"])
             lags.plot(looks, share, ("o" if job.dt == 1 else ".") + style, ms=3, color=COLOURS[job.law], label=label)
-        heights.set(xlabel="time (s)", ylabel="rise of the lid (µm)", title=f"force on the grains {shake:g} × the lid's")
+        heights.set(xlabel="time (s)", ylabel="rise of the lid (µm)")
+        heights.set_title(f"force on the grains {shake:g} × the lid's")
         lags.set(xlabel="time (s)", ylabel="lag / overlap (%)", title="sums over all contacts")
     panels[0][1].legend(fontsize=7)
     return figure
@@ -255,7 +259,8 @@ def shear_table(found: Found) -> str:
                 *both(laws, lambda v: f"{v['end_pulling']}/{v['end_contacts']}"),
             ]
         )
-    names = ["peak τ (kPa)", "mean τ from 2 mm (kPa)", "lid at 8 mm (mm)", "kinetic energy (mJ)", "lag / overlap", "pull"]
+    names = ["peak τ (kPa)", "mean τ from 2 mm (kPa)", "lid at 8 mm (mm)", "kinetic energy (mJ)"]
+    names += ["lag / overlap", "pull"]
     head = ["mm/s", "seed", "dt / auto", *(word for name in names for word in (name, "incr."))]
     note = "First direct, then incremental; the peak is of means over 0.2 mm. The last two at the end of the test.\n\n"
     return note + table(head, rows)
