@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -63,6 +64,25 @@ def mini_box(seed: int = 1) -> tuple[list[Disc], Box]:
     for j in range(-1, rows + 1):
         discs += [Disc(side * (half + d / 2), bottom + j * d, d, type=2) for side in (-1, 1)]
     return discs, (-0.03, 0.03, -0.03, 0.03)
+
+
+def oblique_pairs(sines: Sequence[float], phases: int, speed: float, dt: float) -> tuple[list[Disc], Box]:
+    """Discs that fly along x at others at rest, one pair above the other: `phases` for each sine of the angle between
+    approach and normal, which touch at different fractions of a time step. Of pair k the ids are 2 k + 1 and 2 k + 2."""
+    d = Disc(0, 0).diameter
+    discs: list[Disc] = []
+    for sine in sines:
+        for phase in range(phases):
+            y, gap = 1.5 * d * len(discs), speed * dt * (phase + 0.5) / phases
+            discs += [Disc(0, y), Disc(-d * math.sqrt(1 - sine**2) - gap, y + d * sine, vx=speed)]
+    return discs, (-0.02, 0.02, -2 * d, discs[-1].y + 2 * d)
+
+
+def circling(speed: float, pull: float, stiffness: float) -> list[Disc]:
+    """A disc that circles a fixed one, which pulls it (orbit.in), with the overlap at which the contact is in balance."""
+    disc = Disc(0, 0)
+    overlap = (pull - disc.mass * speed**2 / disc.diameter) / stiffness
+    return [Disc(disc.diameter - overlap, 0, vy=speed), Disc(0, 0, type=2)]
 
 
 def kinetic_energy(state: Frame) -> float:
