@@ -188,6 +188,9 @@ REFUSED = [
     (["--dt", "soon"], "--dt soon: 'auto' or a time step"),
     (["--dt", "1"], "--dt 1: 'auto' or 1e-10 to 1e-4 s"),
     (["--dt", "-1e-6"], "expected one argument"),
+    (["--stiffness", "0"], "--stiffness 0: a factor from 0.01 to 100"),
+    (["--stiffness", "nan"], "--stiffness nan: a factor from 0.01 to 100"),
+    (["--stiffness", "1e8"], "--stiffness 1e+08: a factor from 0.01 to 100"),
     (["--jobs", "0"], "--jobs 0: 1 to 256"),
     (["--ranks", "-1"], "--ranks -1: 1 to 256"),
     (["--engine", "/nowhere/lmp"], "the engine /nowhere/lmp is not there"),
@@ -240,6 +243,7 @@ def _used(tmp_path_factory) -> Path:
         (["--seed", "2"], MODEL, "seed: 1 there, 2 asked for"),
         (["--law", "incremental"], MODEL, "law: direct there, incremental asked for"),
         (["--dt", "1e-7"], MODEL, "dt: auto there, 1e-7 asked for"),
+        (["--stiffness", "0.1"], MODEL, "stiffness: 1.0 there, 0.1 asked for"),
         ([], "TypeB_15x5_4-8_1-circle_550", f"model: {MODEL} there, TypeB_15x5_4-8_1-circle_550 asked for"),
     ],
 )

@@ -76,6 +76,8 @@ def _add_run(commands) -> None:
     run.add_argument("--seed", metavar="N", type=int, default=1, help="seed of the packing")
     run.add_argument("--law", choices=["direct", "incremental"], default="direct", help="contact law")
     run.add_argument("--dt", metavar="DT", default="auto", help="time step, s; auto: from the stability limit")
+    run.add_argument("--stiffness", metavar="F", type=float, default=1.0,
+                     help="factor on the stiffness of all contacts; less makes overlaps and the time step larger")  # fmt: skip
     run.add_argument("--jobs", metavar="N", type=int, default=2, help="stresses run at the same time")
     run.add_argument("--ranks", metavar="N", type=int, default=1, help="MPI ranks of each of them")
     run.add_argument("--engine", metavar="FILE", type=Path, default=None, help="engine (default: build/lmp_cdem)")
