@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """`shearbox run` from the command line, with an engine that only pretends: order, interruption, failures, refusals."""
 
+import argparse
 import fcntl
 import json
 import os
@@ -10,6 +11,8 @@ import time
 from pathlib import Path
 
 import pytest
+from shearbox_tools import cli
+from shearbox_tools.presets import PRESETS
 
 TESTS = Path(__file__).resolve().parent
 SHEARBOX = TESTS.parents[1] / "tools" / "shearbox"
@@ -168,6 +171,33 @@ def test_two_runs_in_one_folder(folder):
     assert "is in use by another run" in second.stderr
 
 
+@pytest.mark.parametrize(
+    "options, speed, stiffness",
+    [
+        ([], 2, 1),
+        (["--accuracy", "reference"], 2, 1),
+        (["--accuracy", "fast"], PRESETS["fast"].speed, PRESETS["fast"].stiffness),
+        (["--accuracy", "fast", "--speed", "7"], 7, PRESETS["fast"].stiffness),
+        (["--stiffness", "0.5", "--accuracy", "fast"], PRESETS["fast"].speed, 0.5),
+    ],
+)
+def test_a_preset_sets_what_is_not_given(tmp_path, monkeypatch, options, speed, stiffness):
+    asked: list[argparse.Namespace] = []
+    monkeypatch.setattr("shearbox_tools.run.run", asked.append)
+    assert cli.main(["run", MODEL, "--out", str(tmp_path), *options]) == 0
+    assert (asked[0].speed, asked[0].stiffness) == (speed, stiffness)
+
+
+def test_a_preset_reaches_the_decks(folder):
+    assert shearbox(folder, "--stress", "100", "--accuracy", "fast").returncode == 0
+    identity = json.loads((folder / "run.json").read_text(encoding="utf-8"))["identity"]
+    assert (identity["speed_mm_s"], identity["stiffness"]) == (PRESETS["fast"].speed, PRESETS["fast"].stiffness)
+    assert summary(folder)["stiffness"] == PRESETS["fast"].stiffness
+    again = shearbox(folder, "--stress", "100", "--speed", f"{PRESETS['fast'].speed}", "--accuracy", "fast")
+    assert again.returncode == 0, "the same settings, said otherwise"
+    assert "speed_mm_s" in shearbox(folder, "--stress", "100").stderr
+
+
 REFUSED = [
     (["--stress", "0"], "--stress 0: a stress above 0 kPa"),
     (["--stress", "-100"], "--stress -100: a stress above 0 kPa"),
@@ -184,6 +214,7 @@ REFUSED = [
     (["--travel", "0.008"], "0.008 m would be 8"),
     (["--seed", "0"], "--seed 0: a whole number"),
     (["--seed", "1.5"], "invalid int value: '1.5'"),
+    (["--accuracy", "high"], "invalid choice: 'high' (choose from 'reference', 'standard', 'fast')"),
     (["--law", "mixed"], "invalid choice: 'mixed'"),
     (["--dt", "soon"], "--dt soon: 'auto' or a time step"),
     (["--dt", "1"], "--dt 1: 'auto' or 1e-10 to 1e-4 s"),
