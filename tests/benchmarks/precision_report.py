@@ -29,7 +29,7 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 MARKERS = {CDEM: "o", STOCK: "s"}
 TARGET = 30  # times less time than stock LAMMPS at the paper's settings
 SIGNIFICANT = 2  # standard errors
-VISIBLE = (0.02, 0.05, 0.1)  # differences of means
+VISIBLE = (2, 5)  # differences of means, %
 
 
 @dataclass(frozen=True)
@@ -81,6 +81,13 @@ def settling_curves(trials: list[Trial], scene: str, kind: str) -> list[Curve]:
             seconds = [min(t.seconds for t in some) for some in by_level]
             found.append(Curve(engine, levels, seconds, [some[0].errors[kind] for some in by_level]))
     return found
+
+
+def windows(trials: list[Trial]) -> str:
+    """The time over which beds are compared."""
+    seconds = {t.scene: t.errors["seconds"] for t in trials if t.part == "settling"}
+    spans = (f"{1e3 * s:.3g} of {1e3 * settling.SCENES[name].seconds:.3g} ms of {name}" for name, s in seconds.items())
+    return f"Compared are the first {', '.join(spans)}."
 
 
 def impact_curves(trials: list[Trial], scene: str) -> list[Curve]:
@@ -151,26 +158,40 @@ MEASURES = [
 
 @dataclass(frozen=True)
 class Difference:
-    """Mean of a measure at a setting, and by how much it is off that of the reference, in % (Welch: independent)."""
+    """Mean relative difference of pairs of runs with the same seed, in %."""
 
-    mean: float
-    deviation: float  # of specimens, standard
     percent: float
-    error_percent: float  # standard, of the difference
+    deviation: float  # of the pairs, standard
+    pairs: int
+
+    @property
+    def error(self) -> float:
+        """Standard error of the mean."""
+        return self.deviation / math.sqrt(self.pairs)
 
     @property
     def resolved(self) -> bool:
-        """Whether it is more than chance."""
-        return abs(self.percent) > SIGNIFICANT * self.error_percent
+        """Whether the mean is more than chance."""
+        return abs(self.percent) > SIGNIFICANT * self.error
+
+    def __str__(self) -> str:
+        return f"{self.percent:+.1f} ± {self.error:.1f} %" + " **" * self.resolved
 
 
-def difference(values: list[float], reference: list[float]) -> Difference:
-    """Of two samples of two or more."""
-    mean, base = statistics.mean(values), statistics.mean(reference)
-    error = statistics.variance(values) / len(values)
-    if values is not reference:
-        error += statistics.variance(reference) / len(reference)
-    return Difference(mean, statistics.stdev(values), 100 * (mean / base - 1), 100 * math.sqrt(error) / base)
+def difference(measure: Measure, outcomes: list[Outcome], base: list[Outcome]) -> Difference:
+    """Seed by seed: a packing has more influence than a setting, and with another speed it is even the same specimen."""
+    known = {o.seed: measure.value(o) for o in base}
+    found = [100 * (measure.value(o) / known[o.seed] - 1) for o in outcomes if o.seed in known]
+    if len(found) < 2:
+        return Difference(math.nan, math.nan, len(found))
+    return Difference(statistics.mean(found), statistics.stdev(found), len(found))
+
+
+def by_way(measure: Measure, settings: dict[Setting, list[Outcome]], setting: Setting) -> list[Difference]:
+    """From the reference to a setting: first the speed, then the stiffness, which need not have the same seeds."""
+    path = [REFERENCE, Setting(setting.speed), setting]
+    steps = [(a, b) for a, b in zip(path, path[1:]) if a != b]
+    return [difference(measure, settings[b], settings[a]) for a, b in steps]
 
 
 def seconds_a_test(outcomes: list[Outcome]) -> float:
@@ -191,30 +212,62 @@ def tests_table(settings: dict[Setting, list[Outcome]]) -> str:
         seconds, prepare = seconds_a_test(outcomes), statistics.median(o.prepare_s for o in outcomes)
         row = [setting.name, str(len(outcomes)), f"{seconds:.1f}", f"{prepare:.1f}"]
         for measure in MEASURES:
-            reference = [measure.value(o) for o in settings[REFERENCE]]
-            values = reference if setting == REFERENCE else [measure.value(o) for o in outcomes]
-            d = difference(values, reference)
-            digits = 1 if d.mean > 10 else 3
-            text = f"{d.mean:.{digits}f} (sd {d.deviation:.{digits}f})"
+            values = [measure.value(o) for o in outcomes]
+            digits = 1 if values[0] > 10 else 3
+            text = f"{statistics.mean(values):.{digits}f} (sd {statistics.stdev(values):.{digits}f})"
             if setting != REFERENCE:
-                text += f", {d.percent:+.1f} ± {d.error_percent:.1f} %" + " **" * d.resolved
+                text += f", {difference(measure, outcomes, settings[REFERENCE])}"
             row.append(text)
         rows.append(row)
     head = ["setting", "seeds", "shear, s a stress", "packing and consolidation, s", *(m.name for m in MEASURES)]
     return table(head, rows)
 
 
+def steps_table(settings: dict[Setting, list[Outcome]]) -> str:
+    """The presets, speed and stiffness one after the other, and both together."""
+    rows = []
+    for name, preset in PRESETS.items():
+        setting = Setting(preset.speed, preset.stiffness)
+        if setting == REFERENCE or not {setting, Setting(preset.speed)} <= set(settings):
+            continue
+        for measure in MEASURES:
+            found = by_way(measure, settings, setting)
+            error = math.sqrt(sum(d.error**2 for d in found))
+            each = [f"{d} ({d.pairs} pairs)" for d in found] + ["–"] * (2 - len(found))
+            rows.append([name, measure.name, *each, f"{sum(d.percent for d in found):+.1f} ± {error:.1f} %"])
+    return table(["preset", "measure", "its speed", "its stiffness", "together"], rows)
+
+
 def scatter_table(settings: dict[Setting, list[Outcome]]) -> str:
-    """How much specimens differ, and how many it takes to see a difference of the means."""
+    """How much specimens and pairs differ, and how many pairs it takes to see a difference of the means."""
+    kinds = {
+        "same specimen, other speed": [(s, REFERENCE) for s in settings if s.stiffness == 1 and is_plain(s)],
+        "own packing": [(s, Setting(s.speed)) for s in settings if s.stiffness != 1 or not is_plain(s)],
+    }
     rows = []
     for measure in MEASURES:
         groups = [[measure.value(o) for o in outcomes] for outcomes in settings.values()]
-        freedom = sum(len(values) - 1 for values in groups)
-        relative = sum((len(v) - 1) * statistics.variance(v) / statistics.mean(v) ** 2 for v in groups) / freedom
-        seeds = [2 * relative * (SIGNIFICANT / difference) ** 2 for difference in VISIBLE]
-        rows.append([measure.name, f"{100 * math.sqrt(relative):.1f}", *(f"{math.ceil(n)}" for n in seeds)])
-    wanted = [f"seeds of either for {100 * d:g} %" for d in VISIBLE]
-    return table(["measure", "standard deviation of a specimen (%), all settings", *wanted], rows)
+        own = pooled([(100 * statistics.stdev(values) / statistics.mean(values), len(values)) for values in groups])
+        rows.append([measure.name, f"{own:.0f}"])
+        for pairs in kinds.values():
+            found = [difference(measure, settings[a], settings[b]) for a, b in pairs if a != b and b in settings]
+            scatter = pooled([(d.deviation, d.pairs) for d in found if d.pairs > 1])
+            rows[-1] += [f"{scatter:.0f}", *(f"{math.ceil((SIGNIFICANT * scatter / v) ** 2)}" for v in VISIBLE)]
+    head = ["measure", "standard deviation of a specimen (%)"]
+    for kind in kinds:
+        head += [f"of a pair: {kind} (%)", *(f"pairs for {v:g} %" for v in VISIBLE)]
+    return table(head, rows)
+
+
+def is_plain(setting: Setting) -> bool:
+    """Whether it has the step and the law of the reference, and so, at its stiffness, the packings."""
+    return (setting.dt, setting.law) == (REFERENCE.dt, REFERENCE.law)
+
+
+def pooled(samples: list[tuple[float, int]]) -> float:
+    """Standard deviation from those of several samples and their sizes."""
+    freedom = sum(count - 1 for _, count in samples)
+    return math.sqrt(sum((count - 1) * deviation**2 for deviation, count in samples) / freedom) if freedom else math.nan
 
 
 def presets_table(trials: list[Trial]) -> str:
@@ -294,15 +347,16 @@ def draw_tests(settings: dict[Setting, list[Outcome]], stock: float | None, file
     figure, panels = plt.subplots(2, 2, figsize=(9.5, 8), sharex=True, sharey=True)
     figure.set_layout_engine("constrained", rect=(0, 0, 1, 0.9))
     for axes, measure in zip(panels.flat, MEASURES, strict=True):
-        reference = [measure.value(o) for o in settings[REFERENCE]]
-        floor = SIGNIFICANT * difference(reference, reference).error_percent
-        axes.axhspan(LEAST, floor, color="0.92")
+        values = [measure.value(o) for o in settings[REFERENCE]]
+        axes.axhspan(LEAST, 100 * statistics.stdev(values) / statistics.mean(values), color="0.92")
         for setting, outcomes in settings.items():
             if setting == REFERENCE:
                 continue
-            d = difference([measure.value(o) for o in outcomes], reference)
+            d = difference(measure, outcomes, settings[REFERENCE])
+            if d.pairs < 2:
+                continue
             colour, x, y = SPEED_COLOURS[setting.speed], seconds_a_test(outcomes), max(LEAST, abs(d.percent))
-            chance = SIGNIFICANT * d.error_percent
+            chance = SIGNIFICANT * d.error
             axes.plot([x, x], [max(LEAST, abs(d.percent) - chance), y + chance], color=colour, lw=0.8, alpha=0.6)
             marker = STIFFNESS_MARKERS[setting.stiffness]
             axes.plot(x, y, marker, color=colour, markersize=6, mfc=colour if d.resolved else "white", clip_on=False)
@@ -316,7 +370,7 @@ def draw_tests(settings: dict[Setting, list[Outcome]], stock: float | None, file
         axes.axvline(seconds_a_test(settings[REFERENCE]), color="black", linewidth=1)
         axes.set_title(measure.name, fontsize=10)
         axes.set(xscale="log", yscale="log", ylim=(LEAST, 100))
-    finish(panels, "shear phase at one stress (s)", "difference from the reference (%)")
+    finish(panels, "shear phase at one stress (s)", "mean difference from the reference (%)")
     add_key(figure, len(settings[REFERENCE]), bool(stock))
     save(figure, file)
 
@@ -332,7 +386,7 @@ def add_key(figure: plt.Figure, seeds: int, stock: bool) -> None:
         entry(f"stiffness {k:g}", color="black", marker=m, mfc="white", ls="") for k, m in STIFFNESS_MARKERS.items()
     ]
     entries.append(entry(f"filled: beyond {SIGNIFICANT} standard errors", color="black", marker="o", ls=""))
-    band = f"{SIGNIFICANT} standard errors of the reference ({seeds} seeds)"
+    band = f"standard deviation of a specimen ({seeds} seeds)"
     entries.append(plt.Rectangle((0, 0), 1, 1, color="0.92", label=band))
     entries.append(entry("reference, cdem", color="black"))
     if stock:
@@ -366,7 +420,8 @@ def publish(folder: Path) -> str:
     if all(found for kinds in beds.values() for found in kinds.values()):
         draw_settling(beds, folder / "settling.svg")
         flat = {f"{n}, {kind}": found for n, kinds in beds.items() for kind, found in kinds.items()}
-        parts.append("## Beds under gravity\n\n" + needed_table(flat, (1e-3, 5e-4, 2e-4), 1, "s"))
+        parts.append("## Beds under gravity\n\n" + windows(trials))
+        parts.append(needed_table(flat, (1e-3, 5e-4, 2e-4), 1, "s"))
         parts += [f"{name}:\n\n{curve_table(found, 1, 's')}" for name, found in flat.items()]
     timed = [t for t in trials if t.part == "presets"]
     if timed:
@@ -374,7 +429,8 @@ def publish(folder: Path) -> str:
     if REFERENCE in settings:
         stock = [t.seconds * FULL_TEST[0] / t.level for t in timed if (t.scene, t.engine) == ("reference", STOCK)]
         draw_tests(settings, statistics.median(stock) if stock else None, folder / "tests.svg")
-        parts.append("## Whole tests\n\n" + tests_table(settings) + "\n\n" + scatter_table(settings))
+        parts.append("## Whole tests\n\n" + tests_table(settings))
+        parts += [steps_table(settings), scatter_table(settings)]
     text = "\n\n".join(parts) + "\n"
     (folder / "tables.md").write_text(text)
     return text

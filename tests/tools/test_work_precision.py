@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What work_precision measures with: closed forms of impacts, reading and comparing of runs, statistics. No speed is asserted."""
+"""What work_precision measures with: closed forms of impacts, comparison of runs, statistics. No speed is asserted."""
 
 import math
 import subprocess
@@ -18,7 +18,7 @@ import impacts  # noqa: E402
 import precision_report  # noqa: E402
 import settling  # noqa: E402
 import whole_tests  # noqa: E402
-from precision_report import Curve, Trial  # noqa: E402
+from precision_report import PRESETS, Curve, Trial  # noqa: E402
 from records import Records  # noqa: E402
 
 
@@ -85,12 +85,24 @@ def test_beds_are_compared_until_the_references_part() -> None:
     assert settling.errors(other, base, rows) == pytest.approx((5e-6, 2e-5)), "over the greatest energy, the whole way"
 
 
-def test_a_difference_has_the_errors_of_both_means() -> None:
-    found = precision_report.difference([11.0, 13.0], [9.0, 10.0, 11.0])
-    assert found.percent == pytest.approx(20)
-    assert found.error_percent == pytest.approx(10 * math.sqrt(2 / 2 + 1 / 3))
+def test_differences_are_those_of_pairs_with_the_same_seed() -> None:
+    phi = precision_report.MEASURES[0]
+    base = [outcome("any", seed, 1) for seed in (1, 2, 3)]
+    other = [replace(outcome("any", seed, 1), phi_deg=o.phi_deg * f) for (seed, f), o in zip([(1, 1.0), (2, 1.4)], base)]
+    found = precision_report.difference(phi, [*other, outcome("any", 7, 1)], base)
+    assert (found.percent, found.pairs) == (pytest.approx(20), 2)
+    assert found.error == pytest.approx(20), "half the difference of two, their standard error"
     assert not found.resolved
-    assert precision_report.difference([12.0, 12.2], [9.9, 10.0, 10.1]).resolved
+    assert str(found) == "+20.0 ± 20.0 %"
+    assert precision_report.pooled([(3.0, 2), (5.0, 3)]) == pytest.approx(math.sqrt((9 + 2 * 25) / 3))
+
+
+def outcome(setting: str, seed: int, strength: float) -> whole_tests.Outcome:
+    """A specimen that differs from the next by some per cent."""
+    ratio = 0.7 * strength * (1 + 0.05 * math.sin(seed))
+    tau = [ratio * sigma for sigma in whole_tests.STRESSES]
+    phi = math.degrees(math.atan(ratio))
+    return whole_tests.Outcome(setting, seed, phi, 0.0, tau, tau, [0.3] * 4, [1.0] * 4, [0.7] * 4, 10, 4.0, 1.0)
 
 
 def test_half_a_line_does_not_count(tmp_path: Path) -> None:
@@ -106,24 +118,19 @@ def test_half_a_line_does_not_count(tmp_path: Path) -> None:
 
 
 def test_report_of_whole_tests(tmp_path: Path) -> None:
-    random = np.random.default_rng(1)
     outcomes = Records(tmp_path / "tests.jsonl", whole_tests.Outcome)
-    for setting in (whole_tests.REFERENCE, whole_tests.Setting(50, 0.1)):
+    fast = PRESETS["fast"]
+    path = [(whole_tests.REFERENCE, 1), (whole_tests.Setting(fast.speed), 1.1)]
+    for setting, strength in [*path, (whole_tests.Setting(fast.speed, fast.stiffness), 1.1 * 1.2)]:
         for seed in range(1, 6):
-            tau = [0.7 * sigma * (1 + 0.01 * random.normal()) for sigma in whole_tests.STRESSES]
-            if setting.speed == 50:
-                tau = [1.2 * value for value in tau]
-            phi = math.degrees(math.atan(tau[-1] / 400))
-            outcomes.add(
-                whole_tests.Outcome(setting.name, seed, phi, 0.0, tau, tau, [0.3] * 4, [1.0] * 4, [0.7] * 4, 10, 4.0, 1.0)
-            )
+            outcomes.add(outcome(setting.name, seed, strength * (1 + 0.001 * math.cos(3 * seed * strength))))
     (tmp_path / "machine.json").write_text('{"processor": "any"}\n')
     precision_report.publish(tmp_path)
-    rows = [line for line in (tmp_path / "tables.md").read_text().splitlines() if line.startswith("| 50 mm/s")]
-    assert len(rows) == 1 and "| 5 | 1.0 |" in rows[0]
-    ratio = rows[0].split("|")[6]
-    assert float(ratio.split(",")[1].split("±")[0]) == pytest.approx(20, abs=2)
-    assert ratio.endswith("** "), "20 % are more than chance"
+    lines = (tmp_path / "tables.md").read_text().splitlines()
+    ratio = next(line for line in lines if line.startswith("| fast | mean τ/σ")).split("|")
+    speed, stiffness, together = (float(cell.split("±")[0]) for cell in ratio[3:6])
+    assert (speed, stiffness, together) == pytest.approx((10, 20, 30), abs=0.5)
+    assert "**" in ratio[3] and "(5 pairs)" in ratio[3], "10 % are more than chance"
     assert (tmp_path / "tests.svg").exists() and not (tmp_path / "impacts.svg").exists()
     assert asdict(outcomes.found[0])["tau_peak_kPa"] == Records(outcomes.file, whole_tests.Outcome).found[0].tau_peak_kPa
 
