@@ -23,7 +23,7 @@ from engines import CDEM, STOCK
 from matplotlib.axes import Axes
 from records import Records
 from report import COLOURS, table
-from whole_tests import PRESETS, REFERENCE, SETTINGS, STRESSES, Outcome, Setting
+from whole_tests import SPEEDS, REFERENCE, SETTINGS, STRESSES, Outcome, Setting
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 MARKERS = {CDEM: "o", STOCK: "s"}
@@ -187,13 +187,6 @@ def difference(measure: Measure, outcomes: list[Outcome], base: list[Outcome]) -
     return Difference(statistics.mean(found), statistics.stdev(found), len(found))
 
 
-def by_way(measure: Measure, settings: dict[Setting, list[Outcome]], setting: Setting) -> list[Difference]:
-    """From the reference to a setting: first the speed, then the stiffness, which need not have the same seeds."""
-    path = [REFERENCE, Setting(setting.speed), setting]
-    steps = [(a, b) for a, b in zip(path, path[1:]) if a != b]
-    return [difference(measure, settings[b], settings[a]) for a, b in steps]
-
-
 def seconds_a_test(outcomes: list[Outcome]) -> float:
     """Shear phase at one stress, s of the processor, mean over stresses and median over seeds."""
     return statistics.median(o.shear_s / len(STRESSES) for o in outcomes)
@@ -223,21 +216,6 @@ def tests_table(settings: dict[Setting, list[Outcome]]) -> str:
     return table(head, rows)
 
 
-def steps_table(settings: dict[Setting, list[Outcome]]) -> str:
-    """The presets, speed and stiffness one after the other, and both together."""
-    rows = []
-    for name, preset in PRESETS.items():
-        setting = Setting(preset.speed, preset.stiffness)
-        if setting == REFERENCE or not {setting, Setting(preset.speed)} <= set(settings):
-            continue
-        for measure in MEASURES:
-            found = by_way(measure, settings, setting)
-            error = math.sqrt(sum(d.error**2 for d in found))
-            each = [f"{d} ({d.pairs} pairs)" for d in found] + ["–"] * (2 - len(found))
-            rows.append([name, measure.name, *each, f"{sum(d.percent for d in found):+.1f} ± {error:.1f} %"])
-    return table(["preset", "measure", "its speed", "its stiffness", "together"], rows)
-
-
 def scatter_table(settings: dict[Setting, list[Outcome]]) -> str:
     """How much specimens and pairs differ, and how many pairs it takes to see a difference of the means."""
     kinds = {
@@ -252,7 +230,8 @@ def scatter_table(settings: dict[Setting, list[Outcome]]) -> str:
         for pairs in kinds.values():
             found = [difference(measure, settings[a], settings[b]) for a, b in pairs if a != b and b in settings]
             scatter = pooled([(d.deviation, d.pairs) for d in found if d.pairs > 1])
-            rows[-1] += [f"{scatter:.0f}", *(f"{math.ceil((SIGNIFICANT * scatter / v) ** 2)}" for v in VISIBLE)]
+            needed = [f"{math.ceil((SIGNIFICANT * scatter / v) ** 2)}" if scatter >= 0 else "–" for v in VISIBLE]
+            rows[-1] += [f"{scatter:.0f}" if scatter >= 0 else "–", *needed]
     head = ["measure", "standard deviation of a specimen (%)"]
     for kind in kinds:
         head += [f"of a pair: {kind} (%)", *(f"pairs for {v:g} %" for v in VISIBLE)]
@@ -265,7 +244,7 @@ def is_plain(setting: Setting) -> bool:
 
 
 def pooled(samples: list[tuple[float, int]]) -> float:
-    """Standard deviation from those of several samples and their sizes."""
+    """Standard deviation from those of several samples and their sizes; NaN from none."""
     freedom = sum(count - 1 for _, count in samples)
     return math.sqrt(sum((count - 1) * deviation**2 for deviation, count in samples) / freedom) if freedom else math.nan
 
@@ -274,7 +253,7 @@ def presets_table(trials: list[Trial]) -> str:
     """Time of a whole shear test (s), and how many times less than stock LAMMPS at the reference."""
     times = {
         (name, engine): [t.seconds * FULL_TEST[0] / t.level for t in trials if (t.part, t.scene, t.engine) == key]
-        for name in PRESETS
+        for name in SPEEDS
         for engine in COLOURS
         if (key := ("presets", name, engine))
     }
@@ -430,7 +409,7 @@ def publish(folder: Path) -> str:
         stock = [t.seconds * FULL_TEST[0] / t.level for t in timed if (t.scene, t.engine) == ("reference", STOCK)]
         draw_tests(settings, statistics.median(stock) if stock else None, folder / "tests.svg")
         parts.append("## Whole tests\n\n" + tests_table(settings))
-        parts += [steps_table(settings), scatter_table(settings)]
+        parts.append(scatter_table(settings))
     text = "\n\n".join(parts) + "\n"
     (folder / "tables.md").write_text(text)
     return text
