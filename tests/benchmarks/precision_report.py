@@ -310,6 +310,7 @@ def finish(panels: Any, x: str, y: str) -> None:
     """Labels at the borders, a grid."""
     for axes in panels.flat:
         axes.grid(alpha=0.3, linewidth=0.5)
+        axes.minorticks_off()
     for axes in panels[-1]:
         axes.set_xlabel(x)
     for axes in panels[:, 0]:
