@@ -13,8 +13,9 @@ import numpy as np
 from engines import CDEM, HERE, LIGGGHTS, ROOT, STOCK, Job, start
 
 AREAL_DENSITY = 26.5  # kg/m^2
+KN = 1.0e8  # N/m, of the decks
 INPUT = ROOT / "input"
-FULL_TEST = 4.0, 800, 100  # s, rows of output, frames: 8 mm at 2 mm/s
+FULL_TEST = 8.0, 800, 100  # mm, rows of output, frames
 
 
 @dataclass(frozen=True)
@@ -66,6 +67,7 @@ class Shear:
     travel: float = 8  # mm
     speed: float = 2  # mm/s
     sigma: float = 100  # kPa
+    stiffness: float = 1  # factor on that of all contacts
     model: str = "TypeA_10x5_4-8_1-circle_350"
     ranks: int = 1
 
@@ -78,17 +80,18 @@ class Shear:
         """A job for each engine, ours first; makes the specimen if it is not there yet. `share` shortens the travel.
         All have the same time step, and the full test's intervals of output in steps.
         """
-        folder = consolidate(self.model, self.sigma, beds)
+        folder = consolidate(self.model, self.sigma, self.stiffness, beds)
         scene = (folder / "shear.scene").read_text()
         dt = float(re.findall(r"variable dt index (\S+)", scene)[0])
         travel = share * self.travel
-        seconds, *outputs = FULL_TEST
-        rows, frames = (max(1, round(travel / self.speed / seconds * number)) for number in outputs)
+        full, *outputs = FULL_TEST
+        rows, frames = (max(1, round(travel / full * number)) for number in outputs)
         steps = row_steps(travel / self.speed / dt / rows) * rows
         test = {"sigma": self.sigma, "speed": self.speed, "travel": travel, "rows": rows, "frames": frames}
         files = {"data": folder / "shear.data", "scene": folder / "shear.scene"}
-        peers: dict[str, object] = {"decks": HERE, **files, **test}
-        ours = {"decks": INPUT, "model": self.model, "dt": repr(dt), "ramp": 0, **test}
+        material = {"kn": KN * self.stiffness, "ks": KN / 4 * self.stiffness}
+        peers: dict[str, object] = {"decks": HERE, **files, **test, **material}
+        ours = {"decks": INPUT, "model": self.model, "stiffness": self.stiffness, "dt": repr(dt), "ramp": 0, **test}
         restart = (folder / "consolidated.restart",)
         return [
             Job(CDEM, INPUT / "shear.in", ours, steps, self.discs, files=restart),
@@ -145,12 +148,12 @@ def pack(bed: Mapping[str, float | str], beds: Path) -> Path:
     return folder
 
 
-def consolidate(model: str, sigma: float, beds: Path) -> Path:
-    """The folder with a specimen of a model, consolidated under a stress."""
-    folder = beds / f"{model}-{sigma:g}"
+def consolidate(model: str, sigma: float, stiffness: float, beds: Path) -> Path:
+    """The folder with a specimen of a model, consolidated under a stress with a stiffness."""
+    folder = beds / f"{model}-{sigma:g}-{stiffness:g}"
     if not folder.exists():
         made = folder.with_name(folder.name + ".new")
-        about = {"decks": INPUT, "model": model}
+        about = {"decks": INPUT, "model": model, "stiffness": stiffness}
         start(Job(CDEM, INPUT / "pack.in", about), made / "packed")
         packed = made / "packed" / "packed.restart"
         start(Job(CDEM, INPUT / "consolidate.in", {**about, "packed": packed, "sigma": sigma}), made / "consolidated")

@@ -17,10 +17,9 @@ from typing import Any
 
 import numpy as np
 from engines import CDEM, Job, execute, installed
-from cases import AREAL_DENSITY, Bed, Scene, Shear
+from cases import AREAL_DENSITY, KN, Bed, Scene, Shear
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
-KN = 1.0e8  # N/m, of the decks
 PUSH = 0.02  # m/s
 BED = Bed({"n": 400, "width": 0.06}, more={"push": PUSH, "state": 1})
 CLUMPS = Bed({"n": 200, "width": 0.06, "shape": "triple"}, more={"push": PUSH, "state": 1})

@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 import os
+import platform
 import re
 import shutil
 import subprocess
+import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -45,6 +47,14 @@ class Job:
 
 
 @dataclass(frozen=True)
+class Usage:
+    """What a program used; 0 is not known."""
+
+    peak_bytes: int
+    processor: float  # share of its time in which it had a processor
+
+
+@dataclass(frozen=True)
 class Sample:
     """A run of a job."""
 
@@ -55,6 +65,7 @@ class Sample:
     dangerous: int
     peak_bytes: int  # resident memory at most, of a single rank; 0 for several
     phases: dict[str, float] = field(default_factory=dict)  # s
+    processor: float = 0.0  # share of the time in which the program had a processor; 0: not known
 
     @property
     def ns(self) -> float:
@@ -77,6 +88,19 @@ def version(engine: str) -> str:
     return found[1] if found else "unknown"
 
 
+def machine() -> dict[str, str]:
+    """Processor, system, and versions of the engines that are installed."""
+    cpuinfo = Path("/proc/cpuinfo").read_text()
+    model = re.search(r"model name\s*: (.*)", cpuinfo)
+    flags = set(cpuinfo.split())
+    vectors = [name for name in ("sse2", "avx2", "avx512f", "asimd") if name in flags]
+    return {
+        "processor": f"{model[1] if model else platform.machine()}, {os.cpu_count()} cores, {' '.join(vectors)}",
+        "system": f"{platform.freedesktop_os_release()['PRETTY_NAME']}, Linux {platform.release()}",
+        **{engine: version(engine) for engine in PROGRAMS if installed(engine)},
+    }
+
+
 def ask(engine: str, deck: str) -> tuple[int, str]:
     """Exit status and output of some lines of a deck."""
     words = [PROGRAMS[engine], "-log", "none"]
@@ -86,12 +110,12 @@ def ask(engine: str, deck: str) -> tuple[int, str]:
 
 def execute(job: Job, folder: Path, core: int | None = None) -> Sample:
     """Runs a job in a folder of its own, on a certain core if it is of one rank, and measures it."""
-    text, peak = start(job, folder, core)
-    return read(text, job, peak if job.ranks == 1 else 0)
+    text, usage = start(job, folder, core)
+    return read(text, job, usage if job.ranks == 1 else Usage(0, 0))
 
 
-def start(job: Job, folder: Path, core: int | None = None) -> tuple[str, int]:
-    """What a job prints, and its peak memory (bytes)."""
+def start(job: Job, folder: Path, core: int | None = None) -> tuple[str, Usage]:
+    """What a job prints and uses."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     for file in job.files:
@@ -102,15 +126,16 @@ def start(job: Job, folder: Path, core: int | None = None) -> tuple[str, int]:
     words = [*launch, PROGRAMS[job.engine], "-in", str(job.deck), "-log", "none"]
     for name, value in job.variables.items():
         words += ["-var", name, str(value)]
-    status, peak = wait(words, folder)
+    status, usage = wait(words, folder)
     text = (folder / "output").read_text(errors="replace")
     if status:
         raise EngineError(f"{' '.join(words)}\nin {folder} ended with status {status}:\n{text[-1500:]}")
-    return text, peak
+    return text, usage
 
 
-def wait(words: list[str], folder: Path) -> tuple[int, int]:
-    """Exit status and peak memory (bytes) of a program; its output goes to the file `output`."""
+def wait(words: list[str], folder: Path) -> tuple[int, Usage]:
+    """Exit status of a program and what it used; its output goes to the file `output`."""
+    begin = time.monotonic()
     with (folder / "output").open("w") as output:
         process = subprocess.Popen(
             words, cwd=folder, env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT
@@ -122,10 +147,11 @@ def wait(words: list[str], folder: Path) -> tuple[int, int]:
             process.wait()
             raise
     process.returncode = os.waitstatus_to_exitcode(status)
-    return process.returncode, usage.ru_maxrss * 1024
+    share = (usage.ru_utime + usage.ru_stime) / (time.monotonic() - begin)
+    return process.returncode, Usage(usage.ru_maxrss * 1024, min(1.0, share))
 
 
-def read(text: str, job: Job, peak: int) -> Sample:
+def read(text: str, job: Job, usage: Usage) -> Sample:
     """What the engine printed about its last run."""
     last = text[text.rindex("Loop time of") :]
     seconds = float(re.findall(r"Loop time of (\S+)", last)[0])
@@ -135,8 +161,9 @@ def read(text: str, job: Job, peak: int) -> Sample:
         discs=job.discs,
         builds=int(re.findall(r"Neighbor list builds = (\d+)", last)[0]),
         dangerous=int(re.findall(r"Dangerous builds = (\d+)", last)[0]),
-        peak_bytes=peak,
+        peak_bytes=usage.peak_bytes,
         phases=phases(last, seconds),
+        processor=usage.processor,
     )
 
 

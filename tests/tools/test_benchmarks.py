@@ -79,7 +79,7 @@ Dangerous builds = 1
 
 @pytest.mark.parametrize("text", [LAMMPS_OUTPUT, LIGGGHTS_OUTPUT], ids=["LAMMPS", "LIGGGHTS"])
 def test_reads_what_engines_print(text: str) -> None:
-    sample = engines.read("Loop time of 9 on 1 procs for 0 steps with 1 atoms\n" + text, job(), 1)
+    sample = engines.read("Loop time of 9 on 1 procs for 0 steps with 1 atoms\n" + text, job(), engines.Usage(1, 1))
     assert (sample.seconds, sample.steps, sample.builds, sample.dangerous) == (2, 1000, 7, 1)
     assert sample.phases == {"pair": 1.25, "neigh": 0.25, "comm": 0, "output": 0, "modify": 0, "other": 0.5}
     assert sample.ns == pytest.approx(2e9 / 1000 / 100)

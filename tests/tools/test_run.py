@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """`shearbox run` from the command line, with an engine that only pretends: order, interruption, failures, refusals."""
 
+import argparse
 import fcntl
 import json
 import os
@@ -10,6 +11,8 @@ import time
 from pathlib import Path
 
 import pytest
+from shearbox_tools import cli
+from shearbox_tools.presets import SPEEDS
 
 TESTS = Path(__file__).resolve().parent
 SHEARBOX = TESTS.parents[1] / "tools" / "shearbox"
@@ -168,6 +171,32 @@ def test_two_runs_in_one_folder(folder):
     assert "is in use by another run" in second.stderr
 
 
+@pytest.mark.parametrize(
+    "options, speed",
+    [
+        ([], 2),
+        (["--accuracy", "reference"], 2),
+        (["--accuracy", "fast"], SPEEDS["fast"]),
+        (["--accuracy", "fast", "--speed", "7"], 7),
+        (["--speed", "7", "--accuracy", "fast"], 7),
+    ],
+)
+def test_accuracy_sets_the_speed_that_is_not_given(tmp_path, monkeypatch, options, speed):
+    asked: list[argparse.Namespace] = []
+    monkeypatch.setattr("shearbox_tools.run.run", asked.append)
+    assert cli.main(["run", MODEL, "--out", str(tmp_path), *options]) == 0
+    assert asked[0].speed == speed
+
+
+def test_accuracy_and_stiffness_reach_the_decks(folder):
+    options = ("--stress", "100", "--stiffness", "0.5")
+    assert shearbox(folder, "--accuracy", "fast", *options).returncode == 0
+    assert (summary(folder)["speed_mm_s"], summary(folder)["stiffness"]) == (SPEEDS["fast"], 0.5)
+    again = shearbox(folder, "--speed", f"{SPEEDS['fast']}", *options)
+    assert again.returncode == 0, "the same settings, said otherwise"
+    assert "speed_mm_s" in shearbox(folder, *options).stderr
+
+
 REFUSED = [
     (["--stress", "0"], "--stress 0: a stress above 0 kPa"),
     (["--stress", "-100"], "--stress -100: a stress above 0 kPa"),
@@ -184,10 +213,14 @@ REFUSED = [
     (["--travel", "0.008"], "0.008 m would be 8"),
     (["--seed", "0"], "--seed 0: a whole number"),
     (["--seed", "1.5"], "invalid int value: '1.5'"),
+    (["--accuracy", "high"], "invalid choice: 'high' (choose from 'reference', 'standard', 'fast')"),
     (["--law", "mixed"], "invalid choice: 'mixed'"),
     (["--dt", "soon"], "--dt soon: 'auto' or a time step"),
     (["--dt", "1"], "--dt 1: 'auto' or 1e-10 to 1e-4 s"),
     (["--dt", "-1e-6"], "expected one argument"),
+    (["--stiffness", "0"], "--stiffness 0: a factor from 0.01 to 100"),
+    (["--stiffness", "nan"], "--stiffness nan: a factor from 0.01 to 100"),
+    (["--stiffness", "1e8"], "--stiffness 1e+08: a factor from 0.01 to 100"),
     (["--jobs", "0"], "--jobs 0: 1 to 256"),
     (["--ranks", "-1"], "--ranks -1: 1 to 256"),
     (["--engine", "/nowhere/lmp"], "the engine /nowhere/lmp is not there"),
@@ -240,6 +273,7 @@ def _used(tmp_path_factory) -> Path:
         (["--seed", "2"], MODEL, "seed: 1 there, 2 asked for"),
         (["--law", "incremental"], MODEL, "law: direct there, incremental asked for"),
         (["--dt", "1e-7"], MODEL, "dt: auto there, 1e-7 asked for"),
+        (["--stiffness", "0.1"], MODEL, "stiffness: 1.0 there, 0.1 asked for"),
         ([], "TypeB_15x5_4-8_1-circle_550", f"model: {MODEL} there, TypeB_15x5_4-8_1-circle_550 asked for"),
     ],
 )

@@ -12,6 +12,7 @@ from types import FrameType
 
 from . import __version__
 from .errors import InputError, ShearboxError
+from .presets import REFERENCE, SPEEDS
 
 DEPENDENCIES = {"numpy": "python3-numpy", "matplotlib": "python3-matplotlib", "jinja2": "python3-jinja2",
                 "rich": "python3-rich"}  # fmt: skip
@@ -71,11 +72,16 @@ def _add_run(commands) -> None:
     run.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder of the results")
     run.add_argument("--stress", metavar="KPA", type=float, nargs="+", default=[100, 200, 300, 400],
                      help="normal stresses, kPa")  # fmt: skip
-    run.add_argument("--speed", metavar="V", type=float, default=2.0, help="shear speed, mm/s")
+    run.add_argument("--accuracy", choices=list(SPEEDS), default=REFERENCE,
+                     help="chooses --speed: " + ", ".join(f"{name} {v:g} mm/s" for name, v in SPEEDS.items()))  # fmt: skip
+    run.add_argument("--speed", metavar="V", type=float, default=argparse.SUPPRESS,
+                     help="shear speed, mm/s (default: that of --accuracy)")  # fmt: skip
     run.add_argument("--travel", metavar="S", type=float, default=8.0, help="shear displacement at the end, mm")
     run.add_argument("--seed", metavar="N", type=int, default=1, help="seed of the packing")
     run.add_argument("--law", choices=["direct", "incremental"], default="direct", help="contact law")
     run.add_argument("--dt", metavar="DT", default="auto", help="time step, s; auto: from the stability limit")
+    run.add_argument("--stiffness", metavar="F", type=float, default=1.0,
+                     help="factor on the stiffness of all contacts: less gives larger overlaps and time steps")  # fmt: skip
     run.add_argument("--jobs", metavar="N", type=int, default=2, help="stresses run at the same time")
     run.add_argument("--ranks", metavar="N", type=int, default=1, help="MPI ranks of each of them")
     run.add_argument("--engine", metavar="FILE", type=Path, default=None, help="engine (default: build/lmp_cdem)")
@@ -105,7 +111,7 @@ def _models(_: argparse.Namespace) -> None:
 def _run(options: argparse.Namespace) -> None:
     from .run import run
 
-    run(options)
+    run(argparse.Namespace(**{"speed": SPEEDS[options.accuracy]} | vars(options)))
 
 
 def _report(options: argparse.Namespace) -> None:

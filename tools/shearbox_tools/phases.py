@@ -94,4 +94,10 @@ def disk_need(request: Request, folder: Path) -> int:
 
 
 def _common(request: Request) -> dict[str, str]:
-    return {"model": request.model.name, "seed": str(request.seed), "law": request.law, "dt": request.dt}
+    return {
+        "model": request.model.name,
+        "seed": str(request.seed),
+        "law": request.law,
+        "dt": request.dt,
+        "stiffness": f"{request.stiffness:g}",
+    }

@@ -17,7 +17,7 @@ LAWS = ("direct", "incremental")
 
 @dataclass(frozen=True)
 class Request:
-    """Stresses in kPa, speed in mm/s, travel in mm, dt in s or 'auto'."""
+    """Stresses in kPa, speed in mm/s, travel in mm, dt in s or 'auto', stiffness a factor on that of contacts."""
 
     model: Model
     stresses: tuple[float, ...]
@@ -26,6 +26,7 @@ class Request:
     seed: int = 1
     law: str = "direct"
     dt: str = "auto"
+    stiffness: float = 1.0
 
     def identity(self, parameters: dict[str, str]) -> dict[str, Any]:
         """Everything the results depend on, less the stresses, each of which has a folder of its own."""
@@ -37,6 +38,7 @@ class Request:
             "seed": self.seed,
             "law": self.law,
             "dt": self.dt,
+            "stiffness": self.stiffness,
             "parameters": parameters,
         }
 
@@ -46,6 +48,8 @@ def check(request: Request) -> None:
     problems = [*_stress_problems(request.stresses), *_shear_problems(request), *_dt_problems(request.dt)]
     if request.law not in LAWS:
         problems.append(f"--law {request.law}: one of {', '.join(LAWS)} is expected")
+    if not 0.01 <= request.stiffness <= 100:
+        problems.append(f"--stiffness {request.stiffness:g}: a factor from 0.01 to 100 is expected")
     if not 0 < request.seed < 2**31:
         problems.append(f"--seed {request.seed}: a whole number from 1 to {2**31 - 1} is expected")
     if problems:

@@ -16,7 +16,7 @@ from .phases import disk_need, shearing
 from .request import Request, check, open_folder
 
 SPARE_BYTES = 100_000_000
-GIVEN = {"model", "seed", "law", "dt", "sigma", "speed", "travel"}  # variables that come from the command line
+GIVEN = {"model", "seed", "law", "dt", "stiffness", "sigma", "speed", "travel"}  # they come from the command line
 
 
 def run(options: argparse.Namespace) -> None:
@@ -29,6 +29,7 @@ def run(options: argparse.Namespace) -> None:
         seed=options.seed,
         law=options.law,
         dt=options.dt,
+        stiffness=options.stiffness,
     )
     engine = Engine((options.engine or PROGRAM).resolve(), options.ranks)
     console = Console()
