@@ -200,6 +200,11 @@ bool VerletCDEM::rebuild_is_due(int steps, const cdem::Fastest &fastest) {
   const double mine = update->dt * fastest.speed(reach);
   double step;
   MPI_Allreduce(&mine, &step, 1, MPI_DOUBLE, MPI_MAX, world);
+  if (integrate->guard.suspects(step)) {
+    if (steps > 0)
+      pair->rows.write_back();
+    integrate->guard.check();
+  }
   travelled += steps * step;
   const double needed = std::max(SAFETY * step, LEAST * 0.5 * neighbor->skin);
   if (travelled + needed < room)
