@@ -58,11 +58,10 @@ void Guard::fail(int owner, int worst) {
   MPI_Bcast(&tag, 1, MPI_LMP_TAGINT, owner, world);
   MPI_Bcast(&way, 1, MPI_DOUBLE, owner, world);
 
-  std::string what =
-      fmt::format("Fix cdem/integrate: the run is unstable: at step {} atom {} ", update->ntimestep, tag);
+  std::string what = fmt::format("Fix cdem/integrate: at step {} atom {} ", update->ntimestep, tag);
   if (std::isfinite(way))
-    what += fmt::format("moves by {:.3g} m in a step, of which {:.3g} are allowed (a tenth of the smallest disc's "
-                        "radius). ",
+    what += fmt::format("moves by {:.3g} m in one step, more than a tenth of the smallest disc's radius, {:.3g} m: the "
+                        "run is unstable, or too fast for its time step. ",
                         way, allowed);
   else
     what += "has a position, velocity or force that is not a finite number. ";
@@ -75,10 +74,10 @@ void Guard::fail(int owner, int worst) {
 std::string Guard::cause() const {
   const double limit = FixCDEMIntegrate::find(lmp)->compute_scalar();
   if (update->dt > limit)
-    return fmt::format("The time step {:.4g} is beyond the stability limit {:.4g} of this scene: take a smaller one, "
-                       "or 'dt auto'.",
+    return fmt::format("The time step {:.4g} s is beyond the stability limit {:.4g} s of this scene: take a smaller "
+                       "one, or 'dt auto'.",
                        update->dt, limit);
-  return fmt::format("The time step {:.4g} is within the stability limit {:.4g} of this scene: look for grains that "
-                     "overlap at the start, walls or forces that drive them too fast, or too light a lid.",
+  return fmt::format("The time step {:.4g} s is within the stability limit {:.4g} s of this scene: look for grains that "
+                     "overlap or are too fast at the start, for walls or forces that drive them, or too light a lid.",
                      update->dt, limit);
 }
