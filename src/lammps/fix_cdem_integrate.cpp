@@ -275,7 +275,10 @@ void FixCDEMIntegrate::compare_with_contacts() {
 }
 
 // Before LAMMPS loses a grain.
-void FixCDEMIntegrate::pre_exchange() { guard.check(); }
+void FixCDEMIntegrate::pre_exchange() {
+  guard.check();
+  guard.check_box();
+}
 
 void FixCDEMIntegrate::end_of_step() {
   guard.keep();

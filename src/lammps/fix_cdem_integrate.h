@@ -14,11 +14,12 @@
 //   rescue       restart file to write when the run fails (default: rescue.restart in the current folder)
 //
 // A run that blows up ends with an error that names the atom and the step: one that moves by more than a tenth of the
-// smallest disc's radius in one step, or has a position, velocity or force that is not a finite number. All atoms are
-// looked at on every rebuild of the neighbour list and every 100 steps at least (run_style verlet/cdem: the fastest in
-// every step). The restart file then has a state from 5000 to 10000 steps before, or of the start of the run, with the
-// history of contacts and the state of fixes: the run can go on from there with a smaller step. For it two copies of
-// the state are kept in memory, some 700 bytes an atom.
+// smallest disc's radius in one step, has a position, velocity or force that is not a finite number, or has left the
+// box (unless thermo_modify says that lost atoms are no error). All atoms are looked at on every rebuild of the
+// neighbour list and every 100 steps at least (run_style verlet/cdem: the fastest in every step). The restart file then
+// has a state from 5000 to 10000 steps before, or of the start of the run, with the history of contacts and the state
+// of fixes: the run can go on from there with a smaller step. For it two copies of the state are kept in memory, some
+// 700 bytes an atom.
 //
 // A step beyond the limit that is not wild but makes contacts chatter is not noticed that way: grains keep in motion
 // and lie less dense, and nothing else shows. So every 5000 steps `dt any` compares the step with the limit of the

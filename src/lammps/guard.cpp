@@ -5,7 +5,10 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
+#include "output.h"
+#include "thermo.h"
 #include "update.h"
 
 #include <cmath>
@@ -14,6 +17,12 @@ using namespace LAMMPS_NS;
 
 namespace {
 constexpr double LARGEST_SHARE = 0.1; // of the smallest radius, in one step
+
+// A value, and the rank that has it.
+struct Located {
+  double value;
+  int rank;
+};
 }
 
 void Guard::begin(double smallest_radius) {
@@ -31,19 +40,49 @@ double Guard::moved(int i) const {
 }
 
 void Guard::check() {
-  struct {
-    double moved;
-    int rank;
-  } mine{0, comm->me}, worst;
-  int i_worst = -1;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (const double way = moved(i); way > mine.moved) {
-      mine.moved = way;
-      i_worst = i;
+  Located mine{0, comm->me}, worst;
+  int i = -1;
+  for (int k = 0; k < atom->nlocal; k++)
+    if (const double way = moved(k); way > mine.value) {
+      mine.value = way;
+      i = k;
     }
   MPI_Allreduce(&mine, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
-  if (suspects(worst.moved))
-    fail(worst.rank, i_worst);
+  if (!suspects(worst.value))
+    return;
+  std::string what;
+  if (worst.rank == comm->me)
+    what = std::isfinite(mine.value)
+               ? fmt::format("atom {} moves by {:.3g} m in one step, more than a tenth of the smallest disc's radius, "
+                             "{:.3g} m: the run is unstable, or too fast for its time step",
+                             atom->tag[i], mine.value, allowed)
+               : fmt::format("atom {} has a position, velocity or force that is not a finite number", atom->tag[i]);
+  fail(worst.rank, what);
+}
+
+bool Guard::outside(int i) const {
+  constexpr int FIXED = 1;
+  for (int k = 0; k < 2; k++)
+    if ((domain->boundary[k][0] == FIXED && atom->x[i][k] < domain->boxlo[k]) ||
+        (domain->boundary[k][1] == FIXED && atom->x[i][k] >= domain->boxhi[k]))
+      return true;
+  return false;
+}
+
+void Guard::check_box() {
+  constexpr int ERROR = 2; // of Thermo's IGNORE, WARN, ERROR
+  if (output->thermo->lostflag != ERROR)
+    return;
+  Located mine{0, comm->me}, any;
+  std::string what;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (outside(i)) {
+      mine.value = 1;
+      what = fmt::format("atom {} has left the box, to {:.4g} {:.4g} m", atom->tag[i], atom->x[i][0], atom->x[i][1]);
+    }
+  MPI_Allreduce(&mine, &any, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
+  if (any.value > 0)
+    fail(any.rank, what);
 }
 
 void Guard::keep() {
@@ -52,23 +91,16 @@ void Guard::keep() {
     rescue.take();
 }
 
-void Guard::fail(int owner, int worst) {
-  tagint tag = owner == comm->me ? atom->tag[worst] : 0;
-  double way = owner == comm->me ? moved(worst) : 0;
-  MPI_Bcast(&tag, 1, MPI_LMP_TAGINT, owner, world);
-  MPI_Bcast(&way, 1, MPI_DOUBLE, owner, world);
-
-  std::string what = fmt::format("Fix cdem/integrate: at step {} atom {} ", update->ntimestep, tag);
-  if (std::isfinite(way))
-    what += fmt::format("moves by {:.3g} m in one step, more than a tenth of the smallest disc's radius, {:.3g} m: the "
-                        "run is unstable, or too fast for its time step. ",
-                        way, allowed);
-  else
-    what += "has a position, velocity or force that is not a finite number. ";
-  what += cause();
+// `what` is that of the owner.
+void Guard::fail(int owner, std::string what) {
+  int size = int(what.size());
+  MPI_Bcast(&size, 1, MPI_INT, owner, world);
+  what.resize(size);
+  MPI_Bcast(what.data(), size, MPI_CHAR, owner, world);
+  std::string message = fmt::format("Fix cdem/integrate: at step {} {}. {}", update->ntimestep, what, cause());
   if (const bigint step = file.empty() ? -1 : rescue.write(file); step >= 0)
-    what += fmt::format(" The state of step {} is in {}.", step, file);
-  error->all(FLERR, what);
+    message += fmt::format(" The state of step {} is in {}.", step, file);
+  error->all(FLERR, message);
 }
 
 std::string Guard::cause() const {
@@ -77,7 +109,8 @@ std::string Guard::cause() const {
     return fmt::format("The time step {:.4g} s is beyond the stability limit {:.4g} s of this scene: take a smaller "
                        "one, or 'dt auto'.",
                        update->dt, limit);
-  return fmt::format("The time step {:.4g} s is within the stability limit {:.4g} s of this scene: look for grains that "
-                     "overlap or are too fast at the start, for walls or forces that drive them, or too light a lid.",
-                     update->dt, limit);
+  return fmt::format(
+      "The time step {:.4g} s is within the stability limit {:.4g} s of this scene: look for grains that "
+      "overlap or are too fast at the start, for walls or forces that drive them, or too light a lid.",
+      update->dt, limit);
 }

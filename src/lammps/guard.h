@@ -3,8 +3,8 @@
 //
 // Unstable motion doubles within some steps until a grain moves by a tenth of the smallest disc's radius in one step.
 // No impact that is resolved in time is that fast: with a step of 0.9 of the limit, grains that meet at this speed
-// overlap by a fifth of their radius, and with a smaller step by more. A weak instability ends before, when contacts
-// open and close in turn; that is for ContactLimit to find.
+// overlap by a fifth of their radius, and with a smaller step by more. Slower grains may still fly out of the box. A
+// weak instability ends before, when contacts open and close in turn; that is for ContactLimit to find.
 #pragma once
 
 #include "rescue.h"
@@ -28,14 +28,17 @@ public:
   bool suspects(double moved) const { return !(moved <= allowed); }
   // Looks at all grains; all ranks together. Ends the run if one is too fast or nowhere.
   void check();
-  // The same, and copies the state if all is well.
+  // Before LAMMPS deletes what is outside of the box, which is an error unless thermo_modify has it otherwise.
+  void check_box();
+  // Looks at all grains, and copies the state if all is well.
   void keep();
 
   double bytes() const { return rescue.bytes(); }
 
 private:
   double moved(int i) const;
-  [[noreturn]] void fail(int owner, int worst);
+  bool outside(int i) const;
+  [[noreturn]] void fail(int owner, std::string what);
   std::string cause() const;
 
   std::string file = "rescue.restart";

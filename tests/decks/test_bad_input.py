@@ -128,6 +128,7 @@ CASES: dict[str, tuple[str, str, str]] = {
     "diameter of an atom zero": ("timestep", "set atom 8 diameter 0\ntimestep", r"Pair style cdem: atom 8 has (radius|mass) 0"),
     "mass of an atom zero": ("timestep", "set atom 8 density/disc 0\ntimestep", r"density/disc 0"),
     "a grain that is too fast": ("timestep", "velocity grains set 1e4 0 0\ntimestep", r"step 0 atom \d+ moves by 0.002 m in one step"),
+    "a grain beyond the box": ("run           20", "velocity grains set 400 0 0\nrun 500", r"step \d+ atom \d+ has left the box, to 0.\d+"),
     "a position that is no number": ("timestep", "variable bad atom 0/0\nset group grains x v_bad\ntimestep", r"[Dd]ivide by 0|nan|[Nn]on-numeric"),
 }  # fmt: skip
 
