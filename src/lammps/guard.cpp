@@ -23,7 +23,7 @@ struct Located {
   double value;
   int rank;
 };
-}
+} // namespace
 
 void Guard::begin(double smallest_radius) {
   allowed = LARGEST_SHARE * smallest_radius;
