@@ -6,8 +6,17 @@
 // that slide count as if they stuck; the motion of the lid is left out. Without any contact it is infinite. Costs as
 // much as some hundred steps.
 //
-// For example:  compute limit all cdem/limit
-//               thermo_style custom step dt c_limit
+// For example, to watch over it:
+//
+//   compute limit all cdem/limit
+//   thermo_style custom step dt c_limit
+//
+// or to take a larger step than that of the worst packing, for grains that have settled. It is not stable if they come
+// to lie denser, of which fix cdem/integrate warns; a run that goes on from a restart file should keep its step.
+//
+//   fix move grains cdem/integrate dt any
+//   run 0
+//   timestep $(0.9*c_limit)
 //
 // Scalar: the limit (s), the same bits for any number of ranks. Source: core/contact_network.h.
 #pragma once
