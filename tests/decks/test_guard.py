@@ -59,37 +59,54 @@ def test_without_rescue(tmp_path: Path) -> None:
     assert not (tmp_path / "rescue.restart").exists()
 
 
-# All grains fall, faster and faster, through a box that repeats, until they move by a tenth of their radius in a step.
-FALL = """
-if "${part} == fall" then "include ${decks}/start.in" &
+# A run that fails after more than 10000 steps, and goes on from a restart file: FALL or SHEAR, then the rest.
+BEGIN = """
+if "${part} == fail" then "include ${decks}/start.in" &
 else "newton off" "processors ${px} ${py} 1" "read_restart ${from}" "comm_modify vel yes" "neighbor ${skin} bin" &
      "run_style ${style}"
-fix move grains cdem/integrate gravity 0 -4.5e5 rescue ${part}.rescue
 timestep 2e-7
+"""
+# All grains fall, faster and faster, through a box that repeats, until they move by a tenth of their radius in a step.
+FALL = "fix move grains cdem/integrate gravity 0 -4.5e5 rescue ${part}.rescue\n"
+# A small box is sheared under its lid, until all grains are pushed away.
+SHEAR = """
+group lid type 3
+group floor type 4
+fix move grains cdem/integrate rescue ${part}.rescue
+fix lid lid cdem/lid stress 4e5 width 0.032 thickness 0.01
+fix floor floor cdem/move speed 1 ramp 2e-4
+variable kick equal 1e9*(step>11000)
+if "${part} == fail" then "fix kick grains addforce v_kick 0 0"
+"""
+END = """
 thermo_modify lost error
-if "${part} == fall" then "restart 5000 control" "run 20000"
+if "${part} == fail" then "restart 5000 control" "run 20000"
 run 500
 include ${decks}/end.in
 """
 
 
 @pytest.mark.parametrize(
-    ("law", "style", "written_by", "read_by"), [("incremental", "verlet/cdem", 1, 2), ("direct", "verlet", 2, 1)]
+    ("scene", "law", "style", "written_by", "read_by"),
+    [("fall", "incremental", "verlet/cdem", 1, 2), ("shear", "direct", "verlet", 2, 1)],
 )
 def test_the_rescued_state_goes_on_to_the_same_bits(
-    tmp_path: Path, law: str, style: str, written_by: int, read_by: int
+    tmp_path: Path, scene: str, law: str, style: str, written_by: int, read_by: int
 ) -> None:
-    """As the restart file that the run itself wrote 5000 to 10000 steps before it failed, history and all."""
-    discs, size = lattice(6, 6, 1e-5, speed=0.5)
+    """As the restart file that the run itself wrote 5000 to 10000 steps before it failed: with the history of contacts,
+    the lid and the wall."""
+    discs, size = lattice(6, 6, 1e-5, speed=0.5) if scene == "fall" else mini_box()
     write_data(tmp_path / "discs.data", discs, size)
-    options = {"bx": "p", "by": "p", "law": law, "style": style, "skin": 2e-4}
-    status, output = start(FALL, tmp_path, ranks=written_by, part="fall", **options)
-    assert status != 0 and "moves by 0.0002 m" in output, output[-1500:]
-    assert re.search(r"at step 111\d\d atom", output)  # g t dt = r/10
-    assert "The state of step 5000 is in fall.rescue" in output
+    border = "p" if scene == "fall" else "f"
+    deck = BEGIN + (FALL if scene == "fall" else SHEAR) + END
+    options = {"bx": border, "by": border, "law": law, "style": style, "skin": 2e-4}
+    status, output = start(deck, tmp_path, ranks=written_by, part="fail", **options)
+    assert status != 0, output[-1500:]
+    assert re.search(r"at step 11[01]\d\d atom \d+ moves by", output)  # fall: g t dt = r/10
+    assert "The state of step 5000 is in fail.rescue" in output
     ends = []
-    for file in ("control.5000", "fall.rescue"):
-        status, output = start(FALL, tmp_path, ranks=read_by, part="on", **{"from": file}, **options)
+    for file in ("control.5000", "fail.rescue"):
+        status, output = start(deck, tmp_path, ranks=read_by, part="on", **{"from": file}, **options)
         assert status == 0, output[-1500:]
         ends += read_dump(tmp_path / "end.dump")
     control, rescued = ends
