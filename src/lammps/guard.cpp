@@ -34,7 +34,7 @@ void Guard::begin(double smallest_radius) {
 // Of the centre in a step; INFINITY if anything about the grain is not a number.
 double Guard::moved(int i) const {
   const double *const x = atom->x[i], *const v = atom->v[i], *const f = atom->f[i];
-  const double way = update->dt * std::hypot(v[0], v[1]);
+  const double way = update->dt * std::sqrt(v[0] * v[0] + v[1] * v[1]);
   const double all = way + x[0] + x[1] + atom->omega[i][2] + f[0] + f[1] + atom->torque[i][2];
   return std::isfinite(all) ? way : INFINITY;
 }
