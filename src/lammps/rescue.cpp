@@ -41,6 +41,7 @@ void Rescue::pack_atoms(Copy &copy) {
     used += atom->avec->pack_exchange(i, &copy.atoms[used]);
   }
   copy.atoms.resize(used);
+  copy.atoms.shrink_to_fit();
 }
 
 void Rescue::unpack_atoms(Copy &copy) {
