@@ -19,7 +19,7 @@
 // neighbour list and every 100 steps at least (run_style verlet/cdem: the fastest in every step). The restart file then
 // has a state from 5000 to 10000 steps before, or of the start of the run, with the history of contacts and the state
 // of fixes: the run can go on from there with a smaller step. For it two copies of the state are kept in memory, some
-// 700 bytes an atom.
+// 600 bytes an atom.
 //
 // A step beyond the limit that is not wild but makes contacts chatter is not noticed that way: grains keep in motion
 // and lie less dense, and nothing else shows. So every 5000 steps `dt any` compares the step with the limit of the
