@@ -24,6 +24,7 @@ using namespace LAMMPS_NS;
 namespace {
 constexpr double SAFE_FRACTION = 0.9;
 constexpr double UNKNOWN = NAN;
+constexpr int CHECK_EVERY = 100, KEEP_EVERY = 5000; // steps
 } // namespace
 
 FixCDEMIntegrate *FixCDEMIntegrate::find(LAMMPS *lmp) {
@@ -33,7 +34,8 @@ FixCDEMIntegrate *FixCDEMIntegrate::find(LAMMPS *lmp) {
   return nullptr;
 }
 
-FixCDEMIntegrate::FixCDEMIntegrate(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), max_step(INFINITY) {
+FixCDEMIntegrate::FixCDEMIntegrate(LAMMPS *lmp, int narg, char **arg)
+    : Fix(lmp, narg, arg), guard(lmp), contacts(lmp, this), max_step(INFINITY) {
   if (domain->dimension != 2)
     error->all(FLERR, "Fix cdem/integrate: dimension is {}, must be 2", domain->dimension);
   if (!atom->sphere_flag)
@@ -44,11 +46,14 @@ FixCDEMIntegrate::FixCDEMIntegrate(LAMMPS *lmp, int narg, char **arg) : Fix(lmp,
   for (int iarg = 3; iarg < narg;) {
     if (strcmp(arg[iarg], "dt") == 0)
       parse_step_rule(narg, arg, ++iarg);
+    else if (strcmp(arg[iarg], "rescue") == 0)
+      parse_rescue(narg, arg, ++iarg);
     else if (const int used = parse_body_force(narg - iarg, arg + iarg))
       iarg += used;
     else
       error->all(FLERR,
-                 "Fix cdem/integrate: unknown keyword {}; allowed: dt check|any|auto [MAX], gravity GX GY, drag T",
+                 "Fix cdem/integrate: unknown keyword {}; allowed: dt check|any|auto [MAX], gravity GX GY, drag T, "
+                 "rescue FILE|none",
                  arg[iarg]);
   }
 
@@ -62,6 +67,8 @@ FixCDEMIntegrate::FixCDEMIntegrate(LAMMPS *lmp, int narg, char **arg) : Fix(lmp,
   restart_peratom = 1;
   force_reneighbor = 1;
   next_reneighbor = -1;
+  nevery = KEEP_EVERY;
+  comm_forward = 1;
   FixCDEMIntegrate::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
@@ -84,6 +91,13 @@ void FixCDEMIntegrate::parse_step_rule(int narg, char **arg, int &iarg) {
     if (!(max_step > 0))
       error->all(FLERR, "Fix cdem/integrate: dt auto {}: the maximum must be positive", max_step);
   }
+}
+
+void FixCDEMIntegrate::parse_rescue(int narg, char **arg, int &iarg) {
+  if (iarg >= narg)
+    error->all(FLERR, "Fix cdem/integrate: rescue: a file or none must follow");
+  const std::string file = arg[iarg++];
+  guard.set_file(file == "none" ? "" : file);
 }
 
 // Arguments that were used, 0 if the first is no keyword of this.
@@ -125,7 +139,8 @@ FixCDEMIntegrate::~FixCDEMIntegrate() {
 }
 
 int FixCDEMIntegrate::setmask() {
-  return FixConst::INITIAL_INTEGRATE | FixConst::POST_NEIGHBOR | FixConst::POST_FORCE | FixConst::FINAL_INTEGRATE;
+  return FixConst::INITIAL_INTEGRATE | FixConst::PRE_EXCHANGE | FixConst::POST_NEIGHBOR | FixConst::POST_FORCE |
+         FixConst::FINAL_INTEGRATE | FixConst::END_OF_STEP;
 }
 
 void FixCDEMIntegrate::init() {
@@ -224,6 +239,9 @@ void FixCDEMIntegrate::post_neighbor() {
 // anew.
 void FixCDEMIntegrate::setup(int) {
   post_neighbor();
+  guard.begin(smallest_disc());
+  warned = false;
+  compare_with_contacts();
   post_force(0);
   to_start.clear();
   for (int i = 0; i < atom->nlocal; i++) {
@@ -237,7 +255,42 @@ void FixCDEMIntegrate::setup(int) {
   valid_step = update->ntimestep;
 }
 
+double FixCDEMIntegrate::smallest_disc() const {
+  double mine = INFINITY, all;
+  for (int i = 0; i < atom->nlocal; i++)
+    for (const auto &disc : FixCDEMShape::shape(lmp, atom->type[i]).discs())
+      mine = std::min(mine, atom->radius[i] * disc.r);
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_MIN, world);
+  return all;
+}
+
+// Within the limit of the worst packing it need not be asked for.
+void FixCDEMIntegrate::compare_with_contacts() {
+  if (warned || update->dt <= limit)
+    return;
+  const double stable = contact_limit(update->dt);
+  warned = update->dt > stable;
+  if (warned && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix cdem/integrate: at step {} the time step {:.4g} is beyond the stability limit {:.4g} of the "
+                   "contacts there are: grains will not come to rest, and results are wrong",
+                   update->ntimestep, update->dt, stable);
+}
+
+// Before LAMMPS loses a grain.
+void FixCDEMIntegrate::pre_exchange() {
+  guard.check();
+  guard.check_box();
+}
+
+void FixCDEMIntegrate::end_of_step() {
+  guard.keep();
+  compare_with_contacts();
+}
+
 void FixCDEMIntegrate::initial_integrate(int) {
+  if (update->ntimestep % CHECK_EVERY == 0)
+    guard.check();
   for (int i : to_start)
     take_acceleration(i);
   to_start.clear();
@@ -313,7 +366,13 @@ void FixCDEMIntegrate::final_integrate() {
 
 double FixCDEMIntegrate::compute_scalar() { return limit; }
 
-double FixCDEMIntegrate::memory_usage() { return double(atom->nmax) * NCOLUMNS * sizeof(double); }
+int FixCDEMIntegrate::pack_forward_comm(int n, int *list, double *buf, int, int *) {
+  return contacts.pack(n, list, buf);
+}
+
+void FixCDEMIntegrate::unpack_forward_comm(int n, int first, double *buf) { contacts.unpack(n, first, buf); }
+
+double FixCDEMIntegrate::memory_usage() { return double(atom->nmax) * NCOLUMNS * sizeof(double) + guard.bytes(); }
 
 void FixCDEMIntegrate::grow_arrays(int nmax) {
   memory->grow(state, nmax, int(NCOLUMNS), "cdem/integrate:state");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// fix ID group cdem/integrate [dt check|any|auto [MAX]] [gravity GX GY] [drag T|none]
+// fix ID group cdem/integrate [dt check|any|auto [MAX]] [gravity GX GY] [drag T|none] [rescue FILE|none]
 // fix_modify ID gravity GX GY
 // fix_modify ID drag T|none
 //
@@ -7,17 +7,32 @@
 // outside the group are walls: contacts don't move them. Exactly one fix of this style must exist.
 //
 //   dt check     refuse a time step beyond the stability limit of the scene (default)
-//   dt any       run with any time step
+//   dt any       run with any time step; a warning says when it is beyond the limit of the present contacts too
 //   dt auto MAX  set the time step to the smaller of 0.9 x limit and MAX (s, default: no maximum)
 //   gravity      acceleration of the grains (m/s^2, default 0 0)
 //   drag         of a medium at rest: force -m v/T on each grain, T > 0 (s, default: none); v is the half step's
+//   rescue       restart file to write when the run fails (default: rescue.restart in the current folder)
 //
-// Scalar: stability limit of the scene (s), see core/stability.h.
+// A run that blows up ends with an error that names the atom and the step: one that moves by more than a tenth of the
+// smallest disc's radius in one step, has a position, velocity or force that is not a finite number, or has left the
+// box (unless thermo_modify says that lost atoms are no error). All atoms are looked at on every rebuild of the
+// neighbour list and every 100 steps at least (run_style verlet/cdem: the fastest in every step). The restart file then
+// has a state from 5000 to 10000 steps before, or of the start of the run, with the history of contacts and the state
+// of fixes: the run can go on from there with a smaller step. For it two copies of the state are kept in memory, some
+// 600 bytes an atom.
+//
+// A step beyond the limit that is not wild but makes contacts chatter is not noticed that way: grains keep in motion
+// and lie less dense, and nothing else shows. So every 5000 steps `dt any` compares the step with the limit of the
+// contacts that there are, that of compute cdem/limit, and warns, once a run.
+//
+// Scalar: stability limit of the scene (s), that of the worst packing, see core/stability.h.
 // Per-atom array: 1, 2 acceleration (m/s^2), 3 angular acceleration (rad/s^2), 4 angle turned so far (rad).
 // A run that goes on, also after a restart, starts from the stored acceleration and so continues to the same bits.
 #pragma once
 
+#include "contact_limit.h"
 #include "core/disc_motion.h"
+#include "guard.h"
 
 #include "atom.h"
 #include "fix.h"
@@ -45,12 +60,16 @@ public:
   void init() override;
   void reset_dt() override;
   void setup(int) override;
+  void pre_exchange() override;
   void post_neighbor() override;
   void initial_integrate(int) override;
   void post_force(int) override;
   void final_integrate() override;
+  void end_of_step() override;
   double compute_scalar() override;
 
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
   double memory_usage() override;
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
@@ -80,7 +99,11 @@ public:
   // Has the neighbour list rebuilt in the next step.
   void rebuild_next() { next_reneighbor = update->ntimestep + 1; }
 
+  // Stability limit of the present contacts (s); the search may stop at a bound that is `enough`. All ranks together.
+  double contact_limit(double enough) { return contacts.find(enough); }
+
   double **state = nullptr; // NCOLUMNS per atom
+  Guard guard;
 
 private:
   enum class Step { check, any, automatic };
@@ -88,15 +111,20 @@ private:
   template <class Value> double scene_minimum(Value) const;
   void refuse_second_integrator() const;
   void parse_step_rule(int narg, char **arg, int &iarg);
+  void parse_rescue(int narg, char **arg, int &iarg);
   int parse_body_force(int narg, char **arg);
   double number(const char *keyword, int narg, char **arg, int &iarg) const;
   void apply_step_rule();
+  double smallest_disc() const;
+  void compare_with_contacts();
   void take_acceleration(int i);
 
   template <class Velocity> void book_drag_at(Velocity);
 
   FixCDEMAudit *audit = nullptr;
   std::vector<Inverse> inverses;
+  ContactLimit contacts;
+  bool warned = false; // in this run, that the step is beyond the limit of the contacts
 
   Step rule = Step::check;
   double max_step;

@@ -74,6 +74,14 @@ public:
 
   std::vector<Contact> contacts() const;
   std::vector<DiscPlace> discs() const;
+  // Calls visit(row of the other disc, 2 sqrt(m) of the pair) for all that touches a disc of an own grain, in the order
+  // of the sums.
+  template <class Visit> void for_each_touching(int row, Visit visit) const {
+    slots.for_each(row, [&](int k) {
+      if (overlap(k) > 0)
+        visit(pairs.a[k] == row ? pairs.b[k] : pairs.a[k], pairs.root_mass[k]);
+    });
+  }
   struct SpringEnergy {
     double normal, tangential; // J
   };

@@ -7,6 +7,7 @@
 #include "compute_cdem_contacts.h"
 #include "compute_cdem_discs.h"
 #include "compute_cdem_energy.h"
+#include "compute_cdem_limit.h"
 #include "compute_cdem_trm.h"
 #include "fix.h"
 #include "fix_cdem_audit.h"
@@ -70,6 +71,7 @@ const std::vector<Shearbox::Style> &Shearbox::styles() {
       compute<ComputeCDEMContacts>("cdem/contacts"),
       compute<ComputeCDEMDiscs>("cdem/discs"),
       compute<ComputeCDEMEnergy>("cdem/energy"),
+      compute<ComputeCDEMLimit>("cdem/limit"),
       compute<ComputeCDEMTRM>("cdem/trm"),
       command<CDEMCreate>("cdem/create"),
       run<VerletCDEM>("verlet/cdem"),

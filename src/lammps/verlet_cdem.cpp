@@ -202,6 +202,11 @@ bool VerletCDEM::rebuild_is_due(int steps, const cdem::Fastest &fastest) {
   double all[4]; // of all ranks, each by itself: the speed of a rank's own largest components depends on who is there
   MPI_Allreduce(mine, all, 4, MPI_DOUBLE, MPI_MAX, world);
   stride = update->dt * cdem::Fastest{all[0], all[1], all[2]}.speed(all[3]);
+  if (integrate->guard.suspects(stride)) {
+    if (steps > 0)
+      pair->rows.write_back();
+    integrate->guard.check();
+  }
   travelled += steps * stride;
   const double needed = std::max(SAFETY * stride, LEAST * 0.5 * neighbor->skin);
   if (travelled + needed < room)

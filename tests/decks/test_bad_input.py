@@ -87,6 +87,9 @@ CASES: dict[str, tuple[str, str, str]] = {
     "time step zero": ("timestep      2e-7", "timestep      0", r"Fix cdem/integrate: the time step 0 must be positive"),
     "time step negative": ("timestep      2e-7", "timestep      -2e-7", r"Fix cdem/integrate: the time step -2e-07 must be positive"),
     "automatic dt without grains": ("grains cdem/integrate dt check", "nobody cdem/integrate dt auto", r"Fix cdem/integrate.*no grain"),
+    "rescue without a file": ("dt check", "dt check rescue", r"Fix cdem/integrate: rescue: a file or none must follow"),
+    "an argument of the limit": ("timestep", "compute limit all cdem/limit fast\ntimestep", r"Compute cdem/limit: unknown argument fast"),
+    "the limit of a group": ("timestep", "compute limit grains cdem/limit\ntimestep", r"Compute cdem/limit limit: the group must be all"),
     "a group that is not there": ("move grains", "move sand", r"sand"),
     # lid
     "lid without grains": ("group         lid type 3", "group lid id 999", r"Fix cdem/lid lid: group lid has no atoms"),
@@ -131,7 +134,8 @@ CASES: dict[str, tuple[str, str, str]] = {
     # discs by other ways
     "diameter of an atom zero": ("timestep", "set atom 8 diameter 0\ntimestep", r"Pair style cdem: atom 8 has (radius|mass) 0"),
     "mass of an atom zero": ("timestep", "set atom 8 density/disc 0\ntimestep", r"density/disc 0"),
-    "a grain beyond the box": ("timestep", "velocity grains set 1e4 0 0\ntimestep", r"[Ll]ost atoms"),
+    "a grain that is too fast": ("timestep", "velocity grains set 1e4 0 0\ntimestep", r"step 0 atom \d+ moves by 0.002 m in one step"),
+    "a grain beyond the box": ("run           20", "velocity grains set 400 0 0\nrun 500", r"step \d+ atom \d+ has left the box, to 0.\d+"),
     "a position that is no number": ("timestep", "variable bad atom 0/0\nset group grains x v_bad\ntimestep", r"[Dd]ivide by 0|nan|[Nn]on-numeric"),
 }  # fmt: skip
 
@@ -154,7 +158,7 @@ ON_TWO_RANKS = {
     "grains that do not fit",
     "a disc outside of the box",
     "diameter of an atom zero",
-    "a grain beyond the box",
+    "a grain that is too fast",
 }
 
 

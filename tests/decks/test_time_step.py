@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 
 import pytest
-from engine import Disc, run
+from engine import Disc, EngineError, run
 from scenes import kinetic_energy, lattice
 
 KN, KS = 1e8, 2.5e7
@@ -34,13 +34,21 @@ def largest_kinetic_energy(directory: Path, fraction: float, h: float, law: str)
     return max(kinetic) / kinetic[0]
 
 
+def blows_up(directory: Path, fraction: float, h: float, law: str) -> bool:
+    """Whether the energy grows a hundredfold, or so much that the run is stopped."""
+    try:
+        return largest_kinetic_energy(directory, fraction, h, law) > 100
+    except EngineError as stopped:
+        return "the run is unstable" in str(stopped)
+
+
 @pytest.mark.parametrize("h", [0, 0.05, 0.215, 0.5, 1.0])
 def test_lattice_is_stable_up_to_the_limit_and_not_beyond(tmp_path: Path, law: str, h: float) -> None:
     """The triangular lattice has the most contacts a disc can have, and on it the limit is exact. Half of it and of all
     the fractions between must be stable, too: a dashpot that is carried forward too far blows up in between."""
     for fraction in (0.5, 0.7, 0.8, 0.9, 0.98):
         assert largest_kinetic_energy(tmp_path, fraction, h, law) < 2, fraction
-    assert largest_kinetic_energy(tmp_path, 1.03, h, law) > 100
+    assert blows_up(tmp_path, 1.03, h, law)
 
 
 @pytest.mark.parametrize("h", [0, 0.215])

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The largest stable time step of the contacts that a packing has now, and never more than that.
+//
+// With the dashpots at the half step (stability.h), the packing is stable as long as no motion u of all grains has
+//
+//   u.(K dt^2 + 2 C dt) u > 4 u.M u,    K, C: sums over the contacts of k (g.u)^2 and c (g.u)^2,
+//
+// where g.u = g_i.u_i - g_j.u_j is the relative motion of the two grains along the normal or the tangent. For any
+// weights y > 0 of the grains, (g.u)^2 <= (1 + y_j/y_i) (g_i.u_i)^2 + (1 + y_i/y_j) (g_j.u_j)^2. So the grains can be
+// looked at one by one: stable if for each of them the largest eigenvalue of
+//
+//   B_i = M_i^-1 sum over its contacts of (1 + y_j/y_i) (k dt^2 + 2 c dt) g_i g_i
+//
+// is at most 4. y = 1 is Gershgorin's bound; the best weights follow from repeating y_i <- y_i |B_i|, the power method
+// on a matrix without negative entries (Perron, Frobenius; the bounds are those of Collatz and Wielandt). Every round
+// gives a step that is safe. A wall does not move: y = 0. Sliding contacts count as if they stuck.
+#pragma once
+
+#include "contact_law.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace cdem {
+
+// Largest eigenvalue of the sum of weighted squares of directions, or a little more: Newton's method comes down to the
+// largest root of the characteristic polynomial, from the trace.
+class Squares {
+public:
+  void add(double weight, double x, double y, double turn) {
+    xx += weight * x * x, yy += weight * y * y, tt += weight * turn * turn;
+    xy += weight * x * y, xt += weight * x * turn, yt += weight * y * turn;
+  }
+  double largest() const {
+    const double minors = xx * yy - xy * xy + xx * tt - xt * xt + yy * tt - yt * yt;
+    const double determinant = xx * (yy * tt - yt * yt) - xy * (xy * tt - xt * yt) + xt * (xy * yt - xt * yy);
+    const double trace = xx + yy + tt;
+    double root = trace;
+    for (int k = 0; k < 20; k++) {
+      const double value = ((root - trace) * root + minors) * root - determinant;
+      const double slope = (3 * root - 2 * trace) * root + minors;
+      if (!(value > 1e-12 * trace * trace * trace && slope > 0))
+        break;
+      root -= value / slope;
+    }
+    return root;
+  }
+
+private:
+  double xx = 0, yy = 0, tt = 0, xy = 0, xt = 0, yt = 0;
+};
+
+class ContactNetwork {
+public:
+  // Own grains are added in turn, each followed by its contacts; a wall has inverses of 0.
+  void add_grain(double inverse_mass, double inverse_inertia) {
+    by_mass = std::sqrt(inverse_mass);
+    by_inertia = std::sqrt(inverse_inertia);
+    first.push_back(int(links.size()));
+    moves.push_back(inverse_mass > 0);
+  }
+
+  // A contact of the last grain with grain `other` (an own one or a ghost): unit normal (nx, ny), place (ox, oy) from
+  // the centre of the grain, and 2 sqrt(m) of the pair.
+  void add_contact(int other, double nx, double ny, double ox, double oy, double root_mass, const Material &m) {
+    links.push_back({other,
+                     {nx * by_mass, ny * by_mass, (ox * ny - oy * nx) * by_inertia, m.kn, m.dn * root_mass},
+                     {-ny * by_mass, nx * by_mass, (ox * nx + oy * ny) * by_inertia, m.ks, m.ds * root_mass}});
+  }
+
+  // A stable step, found from a first guess; stops before the best bound when it is `enough`. INFINITY without
+  // contacts.
+  //   weights     one of each own grain and ghost
+  //   to_ghosts() brings the weights of ghosts up to date
+  //   largest(x)  the largest x of all ranks
+  // Takes maxima only, so that the result is the same for any number of ranks.
+  template <class ToGhosts, class Largest>
+  double step_limit(double step, double enough, std::vector<double> &weights, ToGhosts to_ghosts,
+                    Largest largest) const {
+    constexpr int ROUNDS = 10;
+    const int n = int(first.size());
+    for (int i = 0; i < n; i++)
+      weights[i] = moves[i] ? 1 : 0;
+    std::vector<double> loads(n);
+    double best = 0;
+    for (int round = 0; round < ROUNDS && best < enough; round++) {
+      to_ghosts();
+      double most = 0;
+      for (int i = 0; i < n; i++)
+        most = std::max(most, loads[i] = load(i, step, weights));
+      most = largest(most);
+      if (!(most > 0))
+        return INFINITY;
+      for (int i = 0; i < n; i++)
+        weights[i] *= loads[i] / most;
+      // with these same weights, a step longer by a factor f has a load of at most f^2, one shorter of at most f
+      step *= most > ALLOWED ? ALLOWED / most : std::sqrt(ALLOWED / most);
+      best = std::max(best, step);
+    }
+    return best;
+  }
+
+private:
+  static constexpr double ALLOWED = 4;
+
+  // A direction of motion of a grain, over the roots of mass and inertia; stiffness and dashpot.
+  struct Direction {
+    double x, y, turn;
+    double k, c;
+    double load(double dt) const { return (k * dt + 2 * c) * dt; }
+  };
+  struct Link {
+    int other;
+    Direction normal, tangent;
+  };
+
+  int end(int i) const { return i + 1 < int(first.size()) ? first[i + 1] : int(links.size()); }
+
+  double load(int i, double dt, const std::vector<double> &weights) const {
+    Squares sum;
+    for (int k = first[i]; k < end(i); k++) {
+      const double factor = moves[i] ? 1 + weights[links[k].other] / weights[i] : 0;
+      for (const Direction &d : {links[k].normal, links[k].tangent})
+        sum.add(factor * d.load(dt), d.x, d.y, d.turn);
+    }
+    return sum.largest();
+  }
+
+  double by_mass = 0, by_inertia = 0; // of the last grain
+  std::vector<int> first;             // of each own grain, into links
+  std::vector<bool> moves;            // of each own grain
+  std::vector<Link> links;
+};
+
+} // namespace cdem

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "compute_cdem_limit.h"
+
+#include "fix_cdem_integrate.h"
+#include "pair_cdem.h"
+
+#include "error.h"
+#include "force.h"
+#include "update.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+ComputeCDEMLimit::ComputeCDEMLimit(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg) {
+  if (narg != 3)
+    error->all(FLERR, "Compute cdem/limit: unknown argument {}; it takes none", arg[3]);
+  if (igroup != 0)
+    error->all(FLERR, "Compute cdem/limit {}: the group must be all", id);
+  scalar_flag = 1;
+}
+
+void ComputeCDEMLimit::init() {
+  if (!dynamic_cast<PairCDEM *>(force->pair))
+    error->all(FLERR, "Compute cdem/limit needs pair_style cdem");
+}
+
+double ComputeCDEMLimit::compute_scalar() {
+  invoked_scalar = update->ntimestep;
+  scalar = FixCDEMIntegrate::find(lmp)->contact_limit(INFINITY);
+  return scalar;
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// compute ID all cdem/limit
+//
+// The largest time step that is stable with the contacts of this step (s). It is never above the true limit, and at
+// most some 10 % below it; the scalar of fix cdem/integrate is the limit of the worst packing there could be. Contacts
+// that slide count as if they stuck; the motion of the lid is left out. Without any contact it is infinite. Costs as
+// much as some hundred steps.
+//
+// For example, to watch over it:
+//
+//   compute limit all cdem/limit
+//   thermo_style custom step dt c_limit
+//
+// or to take a larger step than that of the worst packing, for grains that have settled. It is not stable if they come
+// to lie denser, of which fix cdem/integrate warns; a run that goes on from a restart file should keep its step.
+//
+//   fix move grains cdem/integrate dt any
+//   run 0
+//   timestep $(0.9*c_limit)
+//
+// Scalar: the limit (s), the same bits for any number of ranks. Source: core/contact_network.h.
+#pragma once
+
+#include "compute.h"
+
+namespace LAMMPS_NS {
+
+class ComputeCDEMLimit : public Compute {
+public:
+  ComputeCDEMLimit(LAMMPS *, int, char **);
+  void init() override;
+  double compute_scalar() override;
+};
+
+} // namespace LAMMPS_NS

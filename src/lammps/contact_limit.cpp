@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact_limit.h"
+
+#include "compat.h"
+#include "core/contact_network.h"
+#include "fix_cdem_integrate.h"
+#include "pair_cdem.h"
+
+#include "atom.h"
+#include "force.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+double ContactLimit::find(double enough) {
+  const auto *const pair = static_cast<PairCDEM *>(force->pair);
+  const GrainRows &rows = pair->rows;
+  cdem::ContactNetwork network;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const auto [inverse_mass, inverse_inertia] = integrate->inverse(i);
+    network.add_grain(inverse_mass, inverse_inertia);
+    const cdem::Disc<double> &centre = rows.of_grain(i);
+    for (int own = rows.rows_of(i); own < rows.rows_of(i + 1); own++)
+      pair->for_each_touching(own, [&](int other, double root_mass) {
+        const double dx = rows[own].x - rows[other].x, dy = rows[own].y - rows[other].y, distance = std::hypot(dx, dy);
+        const double lever = 0.5 * (distance + rows.radius(own) - rows.radius(other));
+        const double nx = dx / distance, ny = dy / distance;
+        const int j = rows.grain(other);
+        network.add_contact(j, nx, ny, rows[own].x - lever * nx - centre.x, rows[own].y - lever * ny - centre.y,
+                            root_mass, pair->material(atom->type[i], atom->type[j]));
+      });
+  }
+  weights.resize(atom->nlocal + atom->nghost);
+  auto to_ghosts = [this] { Shearbox::forward_comm(lmp, integrate); };
+  auto largest = [this](double x) {
+    double most;
+    MPI_Allreduce(&x, &most, 1, MPI_DOUBLE, MPI_MAX, world);
+    return most;
+  };
+  return network.step_limit(integrate->compute_scalar(), enough, weights, to_ghosts, largest);
+}
+
+int ContactLimit::pack(int n, const int *list, double *buf) const {
+  for (int k = 0; k < n; k++)
+    buf[k] = weights[list[k]];
+  return n;
+}
+
+void ContactLimit::unpack(int n, int first, const double *buf) { std::copy_n(buf, n, weights.begin() + first); }

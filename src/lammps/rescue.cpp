@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "rescue.h"
+
+#include "pair_cdem.h"
+
+#include "atom.h"
+#include "atom_vec.h"
+#include "comm.h"
+#include "error.h"
+#include "fix.h"
+#include "force.h"
+#include "modify.h"
+#include "update.h"
+#include "write_restart.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <utility>
+
+using namespace LAMMPS_NS;
+
+void Rescue::take() {
+  std::swap(copies[0], copies[1]);
+  Copy &copy = copies[1];
+  copy.step = update->ntimestep;
+  pack_atoms(copy);
+  ask_fixes(copy);
+}
+
+void Rescue::pack_atoms(Copy &copy) {
+  static_cast<PairCDEM *>(force->pair)->store_history();
+  constexpr int EXTRA = 1024; // as much as LAMMPS has to spare in its own buffers
+  int largest = atom->avec->maxexchange + EXTRA;
+  for (int k = 0; k < modify->nfix; k++)
+    largest += modify->fix[k]->maxexchange;
+  copy.natoms = atom->nlocal;
+  std::size_t used = 0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (copy.atoms.size() < used + largest)
+      copy.atoms.resize(2 * used + largest);
+    used += atom->avec->pack_exchange(i, &copy.atoms[used]);
+  }
+  copy.atoms.resize(used);
+  copy.atoms.shrink_to_fit();
+}
+
+void Rescue::unpack_atoms(Copy &copy) {
+  static_cast<PairCDEM *>(force->pair)->release_history();
+  atom->nlocal = atom->nghost = 0;
+  double *next = copy.atoms.data();
+  for (int i = 0; i < copy.natoms; i++)
+    next += atom->avec->unpack_exchange(next);
+}
+
+void Rescue::ask_fixes(Copy &copy) {
+  copy.fixes.clear();
+  for (int k = 0; k < modify->nfix; k++) {
+    if (!modify->fix[k]->restart_global)
+      continue;
+    char *text = nullptr;
+    std::size_t size = 0;
+    FILE *const memory = open_memstream(&text, &size);
+    if (!memory)
+      error->one(FLERR, "Fix cdem/integrate: no memory to keep the state of fix {}", modify->fix[k]->id);
+    modify->fix[k]->write_restart(memory);
+    fclose(memory);
+    copy.fixes[modify->fix[k]->id].assign(text, size);
+    free(text);
+  }
+}
+
+// A block begins with its length.
+void Rescue::tell_fixes(const Copy &copy) {
+  for (int k = 0; k < modify->nfix; k++) {
+    Fix *const fix = modify->fix[k];
+    std::string block;
+    if (const auto found = copy.fixes.find(fix->id); found != copy.fixes.end())
+      block = found->second;
+    int size = int(block.size());
+    MPI_Bcast(&size, 1, MPI_INT, 0, world);
+    block.resize(size);
+    MPI_Bcast(block.data(), size, MPI_CHAR, 0, world);
+    if (size > int(sizeof(int)))
+      fix->restart(block.data() + sizeof(int));
+  }
+}
+
+bigint Rescue::write(const std::string &file) {
+  Copy &copy = copies[0].step >= 0 ? copies[0] : copies[1];
+  if (copy.step < 0)
+    return -1;
+  unpack_atoms(copy);
+  tell_fixes(copy);
+  update->ntimestep = copy.step;
+  std::string name = file, without_setup = "noinit";
+  char *words[] = {name.data(), without_setup.data()};
+  WriteRestart(lmp).command(2, words);
+  return copy.step;
+}
+
+double Rescue::bytes() const {
+  return double(copies[0].atoms.capacity() + copies[1].atoms.capacity()) * sizeof(double);
+}
