@@ -91,7 +91,7 @@ class Shear:
         files = {"data": folder / "shear.data", "scene": folder / "shear.scene"}
         material = {"kn": KN * self.stiffness, "ks": KN / 4 * self.stiffness}
         peers: dict[str, object] = {"decks": HERE, **files, **test, **material}
-        ours = {"decks": INPUT, "model": self.model, "stiffness": self.stiffness, "dt": repr(dt), "ramp": 0, **test}
+        ours = {"decks": INPUT, "model": self.model, "stiffness": self.stiffness, "dt": repr(dt), "ramp": 0, "audit": "no", **test}
         restart = (folder / "consolidated.restart",)
         return [
             Job(CDEM, INPUT / "shear.in", ours, steps, self.discs, files=restart),

@@ -44,6 +44,8 @@ def curves(sigma: float, travel: float, rows: int = 800, seed: int = 1) -> dict[
         "trm": 0.6 + 0.2 * (1 - np.exp(-x)),
         "kinetic_J": np.full(rows, 1e-4),
         "dangerous": np.zeros(rows),
+        "work_J": 1e-3 * sigma * s,
+        "residual_J": -2e-7 * sigma * s,
     }
 
 

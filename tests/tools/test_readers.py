@@ -57,10 +57,10 @@ def test_a_line_without_end_is_left_out(shear):
 @pytest.mark.parametrize(
     "text, message",
     [
-        ("5000 1 2 3", "line 7: 9 values are expected, there are 4: '5000 1 2 3'"),
-        ("5000 1 2 3 4 5 6 7 many", "line 7: not a number in '5000 1 2 3 4 5 6 7 many'"),
-        ("5000 1 2 3 4 5 6 7 nan", "line 7: a value that is not finite"),
-        ("\0\0\0\0", "line 7: 9 values are expected"),
+        ("5000 1 2 3", "line 7: 11 values are expected, there are 4: '5000 1 2 3'"),
+        ("5000 1 2 3 4 5 6 7 8 9 many", "line 7: not a number in '5000 1 2 3 4 5 6 7 8 9 many'"),
+        ("5000 1 2 3 4 5 6 7 8 9 nan", "line 7: a value that is not finite"),
+        ("\0\0\0\0", "line 7: 11 values are expected"),
     ],
 )
 def test_a_damaged_row_is_named(shear, text, message):

@@ -95,6 +95,7 @@ def test_numbers_of_the_summary(folder):
     assert first["felt_stress_error_percent"] == pytest.approx(0, abs=0.05)
     assert first["trm"] == pytest.approx(0.8, abs=0.01)
     assert first["grains_lost"] == 0 and first["dangerous_builds"] == 0
+    assert first["energy_error_percent"] == pytest.approx(-0.02)
     assert first["consolidation"]["height_m"] == 0.0987
     assert result["dt_s"] == pytest.approx(0.01 / 2 / synthetic.STEPS_PER_ROW)
     assert result["criteria"]["dilates"]["holds"]
@@ -150,7 +151,7 @@ def test_a_curve_that_still_rises_is_said(folder):
 
 
 DAMAGED = [
-    ("200/shear.dat", "1 2 3\n", "shear.dat, line 1: 9 values are expected"),
+    ("200/shear.dat", "1 2 3\n", "shear.dat, line 1: 11 values are expected"),
     ("200/discs.dump", "", "discs.dump: the file is empty"),
     ("200/contacts.dump", "ITEM: ATOMS\n", "contacts.dump, line 1: 'ITEM: TIMESTEP' is expected"),
     ("200/grains.dump", "", "grains.dump: the file is empty"),
@@ -209,6 +210,15 @@ def test_a_full_disk_keeps_the_earlier_report(folder, capsys, monkeypatch):
     assert "No space left on device" in capsys.readouterr().err
     assert (folder / "summary.json").read_bytes() == before
     assert not list(folder.rglob("*.draft"))
+
+
+def test_without_an_audit_there_is_no_energy_error(folder):
+    curve = synthetic.curves(100, 8)
+    curve["work_J"][:] = curve["residual_J"][:] = 0
+    synthetic.write_shear(folder / "100" / "shear.dat", curve)
+    report(folder)
+    first = json.loads((folder / "summary.json").read_text())["stresses"][0]
+    assert first["energy_error_percent"] is None
 
 
 def test_dangerous_builds_are_summed_over_continuations(folder):

@@ -17,6 +17,8 @@ SHEAR_COLUMNS = (
     "trm",
     "kinetic_J",
     "dangerous",
+    "work_J",
+    "residual_J",
 )
 
 Columns = dict[str, np.ndarray]

@@ -51,6 +51,12 @@ class Shear:
         return float(np.mean(self.data["sigma_kPa"]) / self.sigma - 1)
 
     @property
+    def energy_error(self) -> float | None:
+        """Energy that the audit misses over the work put in: the error of the time step; None without an audit."""
+        work, residual = self.data["work_J"][-1], self.data["residual_J"][-1]
+        return float(residual / work) if work != 0 else None
+
+    @property
     def dangerous_builds(self) -> int:
         """Neighbour lists built too late; the counter begins anew when the phase is continued."""
         counts = self.data["dangerous"]

@@ -81,6 +81,8 @@ def _stress(results: Results, shear: Shear) -> dict[str, Any]:
         "trm": float(shear.data["trm"][-1]),
         "felt_stress_mean_kPa": float(np.mean(shear.data["sigma_kPa"])),
         "felt_stress_error_percent": 100 * shear.felt_error,
+        "work_J": float(shear.data["work_J"][-1]),
+        "energy_error_percent": None if shear.energy_error is None else 100 * shear.energy_error,
         "grains_lost": shear.lost,
         "dangerous_builds": shear.dangerous_builds,
         "consolidation": results.consolidations.get(shear.sigma),
