@@ -11,7 +11,8 @@
 //   dt auto MAX  set the time step to the smaller of 0.9 x limit and MAX (s, default: no maximum)
 //   gravity      acceleration of the grains (m/s^2, default 0 0)
 //   drag         of a medium at rest: force -m v/T on each grain, T > 0 (s, default: none); v is the half step's
-//   rescue       restart file to write when the run fails (default: rescue.restart in the current folder)
+//   rescue       restart file to write when the run fails (default: rescue.restart in the current folder; none beyond
+//                100000 atoms a rank, since the copies it is written from take some 550 bytes an atom)
 //
 // A run that blows up ends with an error that names the atom and the step: one that moves by more than a tenth of the
 // smallest disc's radius in one step, has a position, velocity or force that is not a finite number, or has left the

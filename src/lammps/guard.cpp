@@ -17,6 +17,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 constexpr double LARGEST_SHARE = 0.1; // of the smallest radius, in one step
+constexpr bigint MOST_ATOMS = 100000; // on a rank, to be copied unasked
 
 // A value, and the rank that has it.
 struct Located {
@@ -27,6 +28,8 @@ struct Located {
 
 void Guard::begin(double smallest_radius) {
   allowed = LARGEST_SHARE * smallest_radius;
+  if (automatic && atom->natoms > MOST_ATOMS * comm->nprocs)
+    file.clear();
   rescue.clear();
   keep();
 }

@@ -19,8 +19,11 @@ class Guard : protected Pointers {
 public:
   explicit Guard(LAMMPS *lmp) : Pointers(lmp), rescue(lmp) {}
 
-  // The file to write on failure; empty: none, and no copies are kept.
-  void set_file(const std::string &name) { file = name; }
+  // The file to write on failure; empty: none, and no copies are kept. Without this call, small runs have one.
+  void set_file(const std::string &name) {
+    file = name;
+    automatic = false;
+  }
 
   // At the start of a run, with the smallest radius of a disc.
   void begin(double smallest_radius);
@@ -42,6 +45,7 @@ private:
   std::string cause() const;
 
   std::string file = "rescue.restart";
+  bool automatic = true;
   double allowed = 0; // way of a grain in a step (m)
   Rescue rescue;
 };
