@@ -113,8 +113,8 @@ def test_residual_of_a_box_in_motion(tmp_path: Path, law: str, ranks: int, style
         for k in (1, 3)
     )
     assert min(fine[part] for part in ("friction", "dashpots", "walls", "gravity")) > 1e-4
-    turnover = coarse["friction"] + coarse["dashpots"]
-    assert abs(coarse["residual"]) < 2e-3 * turnover
+    # an impact of n = 15 steps on which the force sets in a part of a step too late or too early: up to (pi/n)^2/8 of it
+    assert abs(coarse["residual"]) < 5e-3 * (coarse["friction"] + coarse["dashpots"])
     assert abs(fine["residual"]) < abs(coarse["residual"]) / 4
 
 
@@ -149,6 +149,7 @@ def test_errors(tmp_path: Path, arguments: str, message: str) -> None:
 
 
 def test_books_need_a_setup(tmp_path: Path) -> None:
-    deck = FREE.replace(AUDIT, "run 1\n" + AUDIT) + " pre no"
+    setup, _, _ = FREE.partition(AUDIT)
+    deck = setup + "run 1\ncompute energy all cdem/energy audit yes\nfix watch all print 5 '$(c_energy[10])'\nrun 10 pre no"
     with pytest.raises(EngineError, match="Compute cdem/energy energy: the first run with an audit must not be 'pre no'"):
         run(deck, tmp_path, discs=[Disc(0, 0)], body="", dt=1e-7, steps=10)

@@ -115,12 +115,16 @@ def test_restitution_if_the_dashpot_may_not_pull(tmp_path: Path, law: str, ranks
 @pytest.mark.parametrize("h", [0.05, 0.215, 0.5])
 def test_restitution_is_second_order_in_the_time_step(tmp_path: Path, law: str, h: float) -> None:
     """In all phases: the largest error falls by 4 when the step is halved. 3 leaves room for the higher orders, as the
-    largest of 128 phases is not quite the largest of all; a first-order scheme has 2."""
+    largest of 128 phases is not quite the largest of all; a first-order scheme has 2. With h = 0.05 little but higher
+    orders is left: 3e-4 or less at all these steps, where LAMMPS has some percent."""
     error = {}
     for n in (20, 40, 80):
         measured, _ = collide(tmp_path / str(n), h, n, kinds=["equal"], phases=128, law=law)
         error[n] = largest_error(measured["equal"], restitution(h))
+    if h == 0.05:
+        assert max(error.values()) < 3e-4
+        return
     assert error[20] / error[40] > 3
     assert error[40] / error[80] > 3
     if h == 0.215:
-        assert error[20] < 0.016  # stock LAMMPS: 0.034 at best
+        assert error[20] < 0.0075  # stock LAMMPS: 0.034 at best, 0.071 at worst
