@@ -97,6 +97,8 @@ ComputeCDEMEnergy::State ComputeCDEMEnergy::state() const {
 void ComputeCDEMEnergy::open_books() {
   if (audit->open)
     return;
+  if (!pair->keeps_books())
+    error->all(FLERR, "Compute cdem/energy {}: the first run with an audit must not be 'pre no'", id);
   const State now = state();
   pair->book_losses();
   audit->books = {};
@@ -105,8 +107,7 @@ void ComputeCDEMEnergy::open_books() {
 }
 
 void ComputeCDEMEnergy::keep_books() {
-  if (!audit->open)
-    error->all(FLERR, "Compute cdem/energy {}: the first run with an audit must not be 'pre no'", id);
+  open_books();
   pair->book_losses();
   const State now = state();
   const auto [friction, dashpots, drag, walls] = audit->all();

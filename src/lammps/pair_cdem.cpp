@@ -330,7 +330,8 @@ double PairCDEM::largest_reach() const {
 }
 
 void PairCDEM::build_list() {
-  kernels = cdem::kernels({law, limit_damping, audit != nullptr}, instructions);
+  booking = audit != nullptr;
+  kernels = cdem::kernels({law, limit_damping, booking}, instructions);
   choose_skin();
   listed.assign(atom->tag, atom->tag + atom->nlocal + atom->nghost);
   divide_into_blocks();
@@ -421,7 +422,7 @@ void PairCDEM::find_pairs() {
 
   std::vector<int> sizes(by_types.size() * (block_starts.size() - 1), 0), next(sizes.size(), 0);
   for_each_candidate([&](int p, int q) { sizes[segment_of(p, q)]++; });
-  pairs.lay_out(by_types, sizes, law, audit != nullptr);
+  pairs.lay_out(by_types, sizes, law, booking);
   auto segment = pairs.segments.begin();
   for (std::size_t m = 0; m < sizes.size(); m++)
     if (sizes[m])

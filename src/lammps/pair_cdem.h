@@ -87,6 +87,7 @@ public:
   };
   SpringEnergy spring_energy() const; // of the contacts that this rank counts
   void book_losses();                 // of the same, with fix cdem/audit, if there is one
+  bool keeps_books() const { return booking; }
 
   void store_history();   // from the list to the grains
   void leave_list();      // the same, once the atoms have moved on: the list is to be rebuilt
@@ -142,6 +143,7 @@ private:
   FixCDEMIntegrate *integrate = nullptr;
   FixCDEMHistory *history = nullptr;
   FixCDEMAudit *audit = nullptr;
+  bool booking = false; // whether the list was built for an audit
 
   // Where a grain was when LAMMPS's list of grain pairs was built, and this style's of disc pairs. The latter has a
   // smaller skin and also ages when a grain turns. Each rank rebuilds it for itself, without any communication.
