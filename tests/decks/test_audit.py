@@ -146,11 +146,3 @@ def test_errors(tmp_path: Path, arguments: str, message: str) -> None:
     deck = f"include ${{decks}}/start.in\nfix move grains cdem/integrate\ncompute c all cdem/energy {arguments}\nrun 0"
     with pytest.raises(EngineError, match=message):
         run(deck, tmp_path, discs=[Disc(0, 0)])
-
-
-def test_books_need_a_setup(tmp_path: Path) -> None:
-    setup, _, _ = FREE.partition(AUDIT)
-    deck = setup + "run 1\ncompute energy all cdem/energy audit yes\nvariable r equal c_energy[10]\n"
-    deck += "fix watch all halt 5 v_r > 1\nrun 10 pre no"
-    with pytest.raises(EngineError, match="Compute cdem/energy energy: the first run with an audit must not be 'pre no'"):
-        run(deck, tmp_path, discs=[Disc(0, 0)], body="", dt=1e-7, steps=10)
