@@ -264,9 +264,10 @@ double FixCDEMIntegrate::smallest_disc() const {
   return all;
 }
 
-// Within the limit of the worst packing it need not be asked for.
+// The limit of the scene knows neighbours of a grain's own kind only: a large grain among many small wall discs has
+// less.
 void FixCDEMIntegrate::compare_with_contacts() {
-  if (warned || update->dt <= limit)
+  if (warned)
     return;
   const double stable = contact_limit(update->dt);
   warned = update->dt > stable;

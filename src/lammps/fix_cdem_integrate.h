@@ -7,7 +7,7 @@
 // outside the group are walls: contacts don't move them. Exactly one fix of this style must exist.
 //
 //   dt check     refuse a time step beyond the stability limit of the scene (default)
-//   dt any       run with any time step; a warning says when it is beyond the limit of the present contacts too
+//   dt any       run with any time step
 //   dt auto MAX  set the time step to the smaller of 0.9 x limit and MAX (s, default: no maximum)
 //   gravity      acceleration of the grains (m/s^2, default 0 0)
 //   drag         of a medium at rest: force -m v/T on each grain, T > 0 (s, default: none); v is the half step's
@@ -19,12 +19,12 @@
 // box (unless thermo_modify says that lost atoms are no error). All atoms are looked at on every rebuild of the
 // neighbour list and every 100 steps at least (run_style verlet/cdem: the fastest in every step). The restart file then
 // has a state from 5000 to 10000 steps before, or of the start of the run, with the history of contacts and the state
-// of fixes: the run can go on from there with a smaller step. For it two copies of the state are kept in memory, some
-// 600 bytes an atom.
+// of fixes: the run can go on from there with a smaller step.
 //
 // A step beyond the limit that is not wild but makes contacts chatter is not noticed that way: grains keep in motion
-// and lie less dense, and nothing else shows. So every 5000 steps `dt any` compares the step with the limit of the
-// contacts that there are, that of compute cdem/limit, and warns, once a run.
+// and lie less dense, and nothing else shows. So at the start and every 5000 steps the step is compared with the limit
+// of the contacts that there are, that of compute cdem/limit, and a warning given, once a run. It also finds what the
+// limit of the scene does not know: a large grain among a dozen or more small wall discs.
 //
 // Scalar: stability limit of the scene (s), that of the worst packing, see core/stability.h.
 // Per-atom array: 1, 2 acceleration (m/s^2), 3 angular acceleration (rad/s^2), 4 angle turned so far (rad).

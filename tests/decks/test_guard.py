@@ -163,3 +163,16 @@ def test_the_limit_of_contacts_is_the_same_for_any_number_of_ranks(tmp_path: Pat
         limits.append(re.findall(r"^ +\d+ +(\d\S+) *$", output, re.MULTILINE))
     assert len(limits[0]) > 40 and len(set(limits[0])) > 5
     assert limits[1] == limits[0] and limits[2] == limits[0]
+
+
+@pytest.mark.parametrize(("walls", "warns"), [(6, False), (24, True)])
+def test_a_large_grain_among_many_small_walls_is_warned_of(tmp_path: Path, walls: int, warns: bool) -> None:
+    """n contacts all around hold a grain by n/2 (kn + ks) in any direction, more than the 6.75 kn of the scene's limit if n
+    is 11 or more."""
+    large, small = 8e-3, 1e-3
+    ring = large + small - 1e-5
+    angles = [2 * math.pi * k / walls for k in range(walls)]
+    discs = [Disc(0, 0, 2 * large)]
+    discs += [Disc(ring * math.cos(a), ring * math.sin(a), 2 * small, type=2) for a in angles]
+    deck = "include ${decks}/start.in\nfix move grains cdem/integrate dt auto\nrun 1\n"
+    assert bool(re.search(WARNING, run(deck, tmp_path, discs=discs).log)) == warns
