@@ -2,9 +2,9 @@
 #include "fix_cdem_audit.h"
 
 #include "compute_cdem_energy.h"
+#include "find_fix.h"
 
 #include "comm.h"
-#include "modify.h"
 
 #include <cstring>
 
@@ -18,12 +18,7 @@ struct Saved {
 };
 } // namespace
 
-FixCDEMAudit *FixCDEMAudit::find(LAMMPS *lmp) {
-  for (int i = 0; i < lmp->modify->nfix; i++)
-    if (auto *fix = dynamic_cast<FixCDEMAudit *>(lmp->modify->fix[i]))
-      return fix;
-  return nullptr;
-}
+FixCDEMAudit *FixCDEMAudit::find(LAMMPS *lmp) { return Shearbox::find_fix<FixCDEMAudit>(lmp); }
 
 FixCDEMAudit::FixCDEMAudit(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) { restart_global = 1; }
 

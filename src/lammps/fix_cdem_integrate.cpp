@@ -2,6 +2,7 @@
 #include "fix_cdem_integrate.h"
 
 #include "core/stability.h"
+#include "find_fix.h"
 #include "fix_cdem_audit.h"
 #include "fix_cdem_shape.h"
 #include "pair_cdem.h"
@@ -27,12 +28,7 @@ constexpr double UNKNOWN = NAN;
 constexpr int CHECK_EVERY = 100, KEEP_EVERY = 5000; // steps
 } // namespace
 
-FixCDEMIntegrate *FixCDEMIntegrate::find(LAMMPS *lmp) {
-  for (int i = 0; i < lmp->modify->nfix; i++)
-    if (auto *fix = dynamic_cast<FixCDEMIntegrate *>(lmp->modify->fix[i]))
-      return fix;
-  return nullptr;
-}
+FixCDEMIntegrate *FixCDEMIntegrate::find(LAMMPS *lmp) { return Shearbox::find_fix<FixCDEMIntegrate>(lmp); }
 
 FixCDEMIntegrate::FixCDEMIntegrate(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg), guard(lmp), contacts(lmp, this), max_step(INFINITY) {
@@ -317,7 +313,7 @@ cdem::StepRule FixCDEMIntegrate::step_rule() const {
 }
 
 void FixCDEMIntegrate::post_force(int) {
-  if (!has_body_forces())
+  if (!step_rule().has_body_forces())
     return;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!is_free(i))

@@ -88,7 +88,6 @@ public:
   // Whether the stored acceleration belongs to the present state; else the first step takes it from the forces.
   bool knows_acceleration(int i) const;
   cdem::StepRule step_rule() const;
-  bool has_body_forces() const { return gravity[0] != 0 || gravity[1] != 0 || drag != 0; }
 
   // 1/m and 1/I of an own grain, 0 of walls.
   struct Inverse {
