@@ -11,6 +11,7 @@
 #include "lanes.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace cdem {
 
@@ -127,19 +128,30 @@ inline void book(Losses<T> &l, const Approach<T> &step, const Approach<T> &dashp
                  const Material &m, double dt) {
   const T n = l.dashpot_n + dashpot.n, t = l.dashpot_t + dashpot.t;
   l.dashpots = fused(T(-0.5 * dt), fused(n, step.n, t * step.t), l.dashpots);
-  l.friction = fused(T(m.ks > 0 ? 0.5 / m.ks : 0) * (es_before + es), trial - es, l.friction);
+  const double none = std::numeric_limits<double>::infinity(); // a division that depends on nothing leaves the loop
+  l.friction = fused(T(0.5 / (m.ks > 0 ? m.ks : none)) * (es_before + es), trial - es, l.friction);
   l.dashpot_n = dashpot.n;
   l.dashpot_t = dashpot.t;
 }
 template <class T>
 inline void book(NoLosses &, const Approach<T> &, const Approach<T> &, T, T, T, const Material &, double) {}
 
+// Of the centres of two discs. Root and division take so long that a loop had better begin with those of the next
+// pairs.
+template <class T> struct Distance { T length, inverse; };
+
+template <class T> [[gnu::always_inline]] inline Distance<T> distance_of(const Relative<T> &u) {
+  const T length = square_root(fused(u.x, u.x, u.y * u.y));
+  return {length, T(1) / length};
+}
+
 // The force of a pair, and its history brought forward by the displacement of a step of length dt. With dt = 0 it is
 // the force of the present state, and the history stays as it is.
 template <Law law, bool limit_damping, class T, class Books>
-[[gnu::always_inline]] inline Forces<T> contact_force(const Relative<T> &u, const Pair<T> &pair, const Material &m,
-                                                      double dt, History<T> &history, Books &books) {
-  const T distance = square_root(fused(u.x, u.x, u.y * u.y)), inverse = T(1) / distance;
+[[gnu::always_inline]] inline Forces<T> contact_force(const Relative<T> &u, const Distance<T> &of_centres,
+                                                      const Pair<T> &pair, const Material &m, double dt,
+                                                      History<T> &history, Books &books) {
+  const auto &[distance, inverse] = of_centres;
   const T overlap = pair.radius_sum - distance;
   const auto touch = overlap > T(0);
   const T nx = u.x * inverse, ny = u.y * inverse;
@@ -174,13 +186,6 @@ template <Law law, bool limit_damping, class T, class Books>
   const T ft = select(slides, es, fused(T(-m.ds) * dashpot, now.t, es)), back = -ft;
   book(books, step, {fn - en, ft - es}, es_before, trial, es, m, dt);
   return {fused(fn, nx, back * ny), fused(fn, ny, ft * nx), back * lever_a, back * lever_b};
-}
-
-template <Law law, bool limit_damping, class T>
-inline Forces<T> contact_force(const Relative<T> &u, const Pair<T> &pair, const Material &m, double dt,
-                               History<T> &history) {
-  NoLosses none;
-  return contact_force<law, limit_damping, T>(u, pair, m, dt, history, none);
 }
 
 } // namespace cdem

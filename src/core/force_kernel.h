@@ -21,7 +21,7 @@ struct ContactRules {
 };
 
 struct Kernels {
-  // The forces of pairs begin ... end-1, all of one material, begin a multiple of DiscPairs::LANES.
+  // The forces of pairs begin ... end-1, a segment of DiscPairs.
   void (*forces)(const Disc<double> *discs, const PairColumns &, const Material &, int begin, int end, double dt);
   // Sums the forces of a block's discs, to sums[disc - first].
   void (*sum)(const SlotBlock &, Forces<double> *sums, int first);

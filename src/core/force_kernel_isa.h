@@ -29,25 +29,39 @@ template <class T> void store_losses(const PairColumns &p, int k, const Losses<T
   store(p.dashpot_t + k, l.dashpot_t);
 }
 
+// Root and division of the next pairs are begun before the law is applied to these: see Distance.
 template <Law law, bool limit_damping, class Books, class T>
 void forces(const Disc<double> *discs, const PairColumns &columns, const Material &material, int begin, int end,
             double dt) {
   const PairColumns p = columns; // copies: what is stored below could otherwise change them
   const Material m = material;
-  for (int k = begin; k < end; k += WIDTH) {
-    const Pair<T> pair{load(p.radius_sum + k, T()), load(p.half_difference + k, T()), load(p.root_mass + k, T())};
-    History<T> history{load(p.es + k, T()), T(0)};
-    if constexpr (law == Law::incremental)
-      history.en = load(p.en + k, T());
-    const Relative<T> relative = load_relative(discs, p.a + k, p.b + k, T());
-    Books books = load_losses<T>(p, k, Books());
-    store_forces(p.slots, p.slot_a + k, p.slot_b + k,
-                 contact_force<law, limit_damping, T>(relative, pair, m, dt, history, books));
-    store_losses(p, k, books);
-    store(p.es + k, history.es);
-    if constexpr (law == Law::incremental)
-      store(p.en + k, history.en);
-  }
+  constexpr int SIZE = PairGroup::SIZE;
+  PairGroup *group = p.groups + begin / SIZE, *const group_end = p.groups + (end + SIZE - 1) / SIZE;
+  Relative<T> relative = load_relative(discs, group->a, group->b, T());
+  Distance<T> distance = distance_of(relative);
+  for (; group != group_end; ++group)
+    for (int lane = 0; lane < SIZE; lane += WIDTH) {
+      const PairGroup &next_group = group[(lane + WIDTH) / SIZE];
+      const int next_lane = (lane + WIDTH) % SIZE;
+      const Relative<T> next = load_relative(discs, next_group.a + next_lane, next_group.b + next_lane, T());
+      const Distance<T> next_distance = distance_of(next);
+
+      [[maybe_unused]] const int k = int(group - p.groups) * SIZE + lane;
+      const Pair<T> pair{load(group->radius_sum + lane, T()), load(group->half_difference + lane, T()),
+                         load(group->root_mass + lane, T())};
+      History<T> history{load(group->es + lane, T()), T(0)};
+      if constexpr (law == Law::incremental)
+        history.en = load(p.en + k, T());
+      Books books = load_losses<T>(p, k, Books());
+      store_forces(p.slots, group->slot_a + lane, group->slot_b + lane,
+                   contact_force<law, limit_damping, T>(relative, distance, pair, m, dt, history, books));
+      store_losses(p, k, books);
+      store(group->es + lane, history.es);
+      if constexpr (law == Law::incremental)
+        store(p.en + k, history.en);
+      relative = next;
+      distance = next_distance;
+    }
 }
 
 void sum(const SlotBlock &block, Forces<double> *sums, int first) {

@@ -85,18 +85,23 @@ public:
     pair_of_slot.resize(total);
     std::vector<int> next = first_pair;
     pairs.for_each([&](int k, const Material &) {
-      for (int row : {pairs.a[k], pairs.b[k]})
+      for (int row : {pairs.a(k), pairs.b(k)})
         if (row < n)
           pair_of_slot[next[row]++] = k;
     });
-    std::fill(pairs.slot_a.begin(), pairs.slot_a.end(), unsummed());
-    std::fill(pairs.slot_b.begin(), pairs.slot_b.end(), unsummed());
+    for (int k = 0; k < pairs.entries(); k++) {
+      pairs.set_slot_a(k, unsummed());
+      pairs.set_slot_b(k, unsummed());
+    }
     for (int row = 0; row < n; row++) {
-      auto partner = [&](int k) { return pairs.a[k] == row ? pairs.b[k] : pairs.a[k]; };
+      auto partner = [&](int k) { return pairs.a(k) == row ? pairs.b(k) : pairs.a(k); };
       const auto begin = pair_of_slot.begin() + first_pair[row], end = begin + counts[row];
       std::sort(begin, end, [&](int k, int l) { return before(partner(k), partner(l)); });
       for (int s = 0; s < counts[row]; s++)
-        (pairs.a[begin[s]] == row ? pairs.slot_a : pairs.slot_b)[begin[s]] = first_slot[row] + s;
+        if (pairs.a(begin[s]) == row)
+          pairs.set_slot_a(begin[s], first_slot[row] + s);
+        else
+          pairs.set_slot_b(begin[s], first_slot[row] + s);
     }
   }
 
@@ -116,7 +121,7 @@ public:
 
   // The force on disc a of pair k, as long as the block of that pair is the last one that was computed.
   Forces<double> of_pair(const DiscPairs &pairs, int k) const {
-    return pairs.slot_a[k] != unsummed() ? slots[pairs.slot_a[k]] : opposite(slots[pairs.slot_b[k]]);
+    return pairs.slot_a(k) != unsummed() ? slots[pairs.slot_a(k)] : opposite(slots[pairs.slot_b(k)]);
   }
 
   int blocks() const { return int(first_run.size()) - 1; }
@@ -139,7 +144,7 @@ private:
   void count_slots(const DiscPairs &pairs, int n) {
     counts.assign(n, 0);
     pairs.for_each([&](int k, const Material &) {
-      for (int row : {pairs.a[k], pairs.b[k]})
+      for (int row : {pairs.a(k), pairs.b(k)})
         if (row < n)
           counts[row]++;
     });
@@ -190,7 +195,7 @@ private:
       last_reached[k] = k;
       for (int s = pairs.first_segment[k]; s < pairs.first_segment[k + 1]; s++)
         for (int p = pairs.segments[s].begin; p < pairs.segments[s].end; p++)
-          if (const int row = std::max(pairs.a[p], pairs.b[p]); row < starts.back())
+          if (const int row = std::max(pairs.a(p), pairs.b(p)); row < starts.back())
             last_reached[k] = std::max(last_reached[k], block_of(starts, row));
     }
     int in_use = 0, largest = 0;

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // From rows in memory (a disc, the force of a pair) to lanes of a vector and back. A row is read with whole loads and
-// transposed in registers, which is several times faster than gathering its values one by one.
+// transposed in registers, which is several times faster than gathering its values one by one. The indices are those of
+// PairGroup, in doubles.
 #pragma once
 
-#include "contact_law.h"
+#include "disc_pairs.h"
 
 #include <utility>
 
 namespace cdem {
 
 inline Relative<double> load_relative(const Disc<double> *discs, const int *a, const int *b, double) {
-  return relative(discs[*a], discs[*b]);
+  return relative(discs[*a / PairGroup::ROW], discs[*b / PairGroup::ROW]);
 }
 inline double load(const double *column, double) { return *column; }
 inline void store(double *column, double value) { *column = value; }
 
 // The force on a to its slot, and the opposite one, with the torque on b, to that of b.
 inline void store_forces(Forces<double> *slots, const int *slot_a, const int *slot_b, const Forces<double> &f) {
-  slots[*slot_a] = f;
-  slots[*slot_b] = opposite(f);
+  slots[*slot_a / PairGroup::SLOT] = f;
+  slots[*slot_b / PairGroup::SLOT] = opposite(f);
 }
 
 #ifdef CDEM_HAS_SIMD
@@ -49,7 +50,7 @@ template <int W> using Quads = typename Raw<W>::type[4];
 template <int W>
 [[gnu::always_inline]] inline void load_quads(Quads<W> &first, Quads<W> &second, const Disc<double> *discs,
                                               const int *index) {
-  auto row = [=](int i) { return &discs[index[i]].x; };
+  auto row = [=](int i) { return &discs->x + index[i]; };
   for (int i = 0; i < 4; i++) {
     if constexpr (W == 8) {
       const double *const low = row(i), *const high = row(i + 4);
@@ -67,7 +68,7 @@ template <int W>
 
 template <int W>
 [[gnu::always_inline]] inline void store_quads(const Quads<W> &q, Forces<double> *slots, const int *index) {
-  auto row = [=](int i) { return &slots[index[i]].fx; };
+  auto row = [=](int i) { return &slots->fx + index[i]; };
   for (int i = 0; i < 4; i++) {
     if constexpr (W == 8) {
       store_raw(row(i), low_half(q[i]));

@@ -430,34 +430,32 @@ void PairCDEM::find_pairs() {
   for_each_candidate([&](int p, int q) {
     const int k = next[segment_of(p, q)]++;
     const bool p_first = atom->tag[rows.grain(p)] < atom->tag[rows.grain(q)];
-    pairs.a[k] = p_first ? p : q;
-    pairs.b[k] = p_first ? q : p;
+    pairs.set_discs(k, p_first ? p : q, p_first ? q : p);
   });
 }
 
 void PairCDEM::set_constants(int k, const cdem::Material &material) {
-  const int i = rows.grain(pairs.a[k]), j = rows.grain(pairs.b[k]);
-  if (rows[pairs.a[k]].x == rows[pairs.b[k]].x && rows[pairs.a[k]].y == rows[pairs.b[k]].y)
+  const int p = pairs.a(k), q = pairs.b(k), i = rows.grain(p), j = rows.grain(q);
+  if (rows[p].x == rows[q].x && rows[p].y == rows[q].y)
     error->one(FLERR,
                "Pair style cdem: discs of atoms {} and {} have the same centre ({}, {}): no direction to push them "
                "apart",
-               atom->tag[i], atom->tag[j], rows[pairs.a[k]].x, rows[pairs.a[k]].y);
+               atom->tag[i], atom->tag[j], rows[p].x, rows[p].y);
   const double mi = atom->rmass[i], mj = atom->rmass[j];
   const double m = !integrate->is_free(j) ? mi : !integrate->is_free(i) ? mj : mi * mj / (mi + mj);
-  const double ra = rows.radius(pairs.a[k]), rb = rows.radius(pairs.b[k]);
-  pairs.radius_sum[k] = ra + rb;
-  pairs.half_difference[k] = 0.5 * (ra - rb);
+  const double rp = rows.radius(p), rq = rows.radius(q);
   const cdem::StepRule step = integrate->step_rule();
   const double h = material.dn / std::sqrt(material.kn), stiffness = material.kn * step.dt * step.dt / m;
-  pairs.root_mass[k] = 2 * std::sqrt(m) * cdem::dashpot_in_steps(h, stiffness, 2 * step.forward / step.dt);
+  const double in_steps = cdem::dashpot_in_steps(h, stiffness, 2 * step.forward / step.dt);
+  pairs.set_constants(k, {rp + rq, 0.5 * (rp - rq), 2 * std::sqrt(m) * in_steps});
 }
 
 void PairCDEM::recall_history(int k) {
-  const int i = rows.grain(pairs.a[k]), j = rows.grain(pairs.b[k]), p = rows.disc(pairs.a[k]),
-            q = rows.disc(pairs.b[k]);
+  const int i = rows.grain(pairs.a(k)), j = rows.grain(pairs.b(k)), p = rows.disc(pairs.a(k)),
+            q = rows.disc(pairs.b(k));
   const FixCDEMHistory::Contact *const known =
       i < atom->nlocal ? history->find_contact(i, atom->tag[j], p, q) : history->find_contact(j, atom->tag[i], q, p);
-  pairs.es[k] = known ? known->es : 0;
+  pairs.set_es(k, known ? known->es : 0);
   if (law == cdem::Law::incremental)
     pairs.en[k] = known ? known->en : 0;
 }
@@ -467,7 +465,7 @@ void PairCDEM::tally() {
   pairs.for_each([this](int k, const cdem::Material &m) {
     if (!acts(k))
       return;
-    const int i = rows.grain(pairs.a[k]), j = rows.grain(pairs.b[k]);
+    const int i = rows.grain(pairs.a(k)), j = rows.grain(pairs.b(k));
     const double *const xi = atom->x[i], *const xj = atom->x[j];
     const auto [normal, tangential] = eflag_either ? spring_energy(k, m) : SpringEnergy{0, 0};
     const cdem::Forces<double> &on_a = pairs.force[k];
@@ -477,12 +475,12 @@ void PairCDEM::tally() {
 }
 
 double PairCDEM::overlap(int k) const {
-  const auto &a = rows[pairs.a[k]], &b = rows[pairs.b[k]];
-  return pairs.radius_sum[k] - std::hypot(a.x - b.x, a.y - b.y);
+  const auto &a = rows[pairs.a(k)], &b = rows[pairs.b(k)];
+  return pairs.constants(k).radius_sum - std::hypot(a.x - b.x, a.y - b.y);
 }
 
 // A pair across a border is on two ranks (or twice on one, if periodic): the owner of disc a counts it.
-bool PairCDEM::counts(int k) const { return rows.grain(pairs.a[k]) < block_starts.back(); }
+bool PairCDEM::counts(int k) const { return rows.grain(pairs.a(k)) < block_starts.back(); }
 
 // Also in the step after it opened, in which its dashpot may have a share left.
 bool PairCDEM::acts(int k) const {
@@ -493,7 +491,7 @@ bool PairCDEM::acts(int k) const {
 PairCDEM::SpringEnergy PairCDEM::spring_energy(int k, const cdem::Material &m) const {
   if (overlap(k) <= 0)
     return {0, 0};
-  const double en = law == cdem::Law::direct ? m.kn * overlap(k) : pairs.en[k], es = pairs.es[k];
+  const double en = law == cdem::Law::direct ? m.kn * overlap(k) : pairs.en[k], es = pairs.es(k);
   return {0.5 * en * en / m.kn, m.ks > 0 ? 0.5 * es * es / m.ks : 0};
 }
 
@@ -524,11 +522,11 @@ void PairCDEM::finish_step_in_books() {
   if (pairs.friction.empty())
     return;
   pairs.for_each([this](int k, const cdem::Material &) {
-    const cdem::Pair<double> pair{pairs.radius_sum[k], pairs.half_difference[k], pairs.root_mass[k]};
+    const auto relative = cdem::relative(rows[pairs.a(k)], rows[pairs.b(k)]);
     cdem::History<double> none{0, 0};
     cdem::Losses<double> losses{0, pairs.dashpots[k], pairs.dashpot_n[k], pairs.dashpot_t[k]};
-    cdem::contact_force<cdem::Law::direct, false, double>(cdem::relative(rows[pairs.a[k]], rows[pairs.b[k]]), pair, {},
-                                                          update->dt, none, losses);
+    cdem::contact_force<cdem::Law::direct, false>(relative, cdem::distance_of(relative), pairs.constants(k), {},
+                                                  update->dt, none, losses);
     pairs.dashpots[k] = losses.dashpots;
     pairs.dashpot_n[k] = pairs.dashpot_t[k] = 0;
   });
@@ -547,7 +545,7 @@ void PairCDEM::book_losses() {
 }
 
 PairCDEM::Contact PairCDEM::contact(int k, const cdem::Material &m) const {
-  const int p = pairs.a[k], q = pairs.b[k];
+  const int p = pairs.a(k), q = pairs.b(k);
   const double dx = rows[p].x - rows[q].x, dy = rows[p].y - rows[q].y, distance = std::hypot(dx, dy);
   const auto [fx, fy, torque_a, torque_b] = pairs.force[k];
   constexpr double ROUND_OFF = 1e-10;
@@ -559,14 +557,14 @@ PairCDEM::Contact PairCDEM::contact(int k, const cdem::Material &m) const {
   c.disc_b = rows.disc(q);
   c.nx = dx / distance;
   c.ny = dy / distance;
-  const double lever = 0.5 * distance + pairs.half_difference[k];
+  const double lever = 0.5 * distance + pairs.constants(k).half_difference;
   c.x = rows[p].x - lever * c.nx;
   c.y = rows[p].y - lever * c.ny;
   c.fn = fx * c.nx + fy * c.ny;
   c.ft = fy * c.nx - fx * c.ny;
   c.overlap = overlap(k);
   const double en = law == cdem::Law::direct ? m.kn * c.overlap : pairs.en[k];
-  c.sliding = std::fabs(pairs.es[k]) >= (1 - ROUND_OFF) * m.mu * en;
+  c.sliding = std::fabs(pairs.es(k)) >= (1 - ROUND_OFF) * m.mu * en;
   c.mine = counts(k);
   return c;
 }
@@ -594,7 +592,7 @@ double PairCDEM::single(int i, int j, int itype, int jtype, double, double, doub
   if (i >= atom->nlocal)
     std::swap(i, j);
   auto add = [&](int k) {
-    const int p = pairs.a[k], q = pairs.b[k], other = rows.grain(p) == i ? rows.grain(q) : rows.grain(p);
+    const int p = pairs.a(k), q = pairs.b(k), other = rows.grain(p) == i ? rows.grain(q) : rows.grain(p);
     if (atom->tag[other] != atom->tag[j] || !acts(k))
       return;
     const Contact c = contact(k, materials[itype][jtype]);
@@ -603,7 +601,7 @@ double PairCDEM::single(int i, int j, int itype, int jtype, double, double, doub
     fforce += c.fn / std::hypot(rows[p].x - rows[q].x, rows[p].y - rows[q].y);
     svector[0] += c.fn;
     svector[1] += c.ft;
-    svector[2] += pairs.es[k];
+    svector[2] += pairs.es(k);
   };
   for (int p = rows.rows_of(i); p < rows.rows_of(i + 1); p++)
     slots.for_each(p, add);
@@ -618,10 +616,10 @@ void PairCDEM::store_history() {
   const int own_grains = block_starts.back();
   auto for_each_memory = [&](auto visit) { // visit(grain, contact as it remembers it)
     pairs.for_each([&](int k, const cdem::Material &) {
-      const double es = pairs.es[k], en = law == cdem::Law::incremental ? pairs.en[k] : 0;
+      const double es = pairs.es(k), en = law == cdem::Law::incremental ? pairs.en[k] : 0;
       if (es == 0 && en == 0)
         return;
-      const int a = pairs.a[k], b = pairs.b[k];
+      const int a = pairs.a(k), b = pairs.b(k);
       for (const auto &[own, other] : {std::pair{a, b}, std::pair{b, a}})
         if (rows.grain(own) < own_grains)
           visit(rows.grain(own),

@@ -79,7 +79,7 @@ public:
   template <class Visit> void for_each_touching(int row, Visit visit) const {
     slots.for_each(row, [&](int k) {
       if (overlap(k) > 0)
-        visit(pairs.a[k] == row ? pairs.b[k] : pairs.a[k], pairs.root_mass[k]);
+        visit(pairs.a(k) == row ? pairs.b(k) : pairs.a(k), pairs.constants(k).root_mass);
     });
   }
   struct SpringEnergy {

@@ -37,10 +37,8 @@ struct Packing {
       next[k] = pairs.segments[k].begin;
     for_each_pair(side, [&](int i, int j) {
       const int k = next[i / BLOCK]++;
-      pairs.a[k] = i;
-      pairs.b[k] = j;
-      pairs.radius_sum[k] = 2 * RADIUS;
-      pairs.root_mass[k] = 0.013;
+      pairs.set_discs(k, i, j);
+      pairs.set_constants(k, {2 * RADIUS, 0, 0.013});
       count++;
     });
     slots.build(pairs, starts, std::less<int>(), [](int) { return false; });

@@ -33,7 +33,9 @@ struct Scene {
   template <Law law = Law::direct, bool limit_damping = false>
   Forces<double> force(double dt = DT, const Material &m = steel) {
     const Pair<double> pair{radius_a + radius_b, 0.5 * (radius_a - radius_b), 2 * std::sqrt(MASS)};
-    return contact_force<law, limit_damping, double>(relative(a, b), pair, m, dt, history);
+    NoLosses none;
+    const auto u = relative(a, b);
+    return contact_force<law, limit_damping>(u, distance_of(u), pair, m, dt, history, none);
   }
 };
 

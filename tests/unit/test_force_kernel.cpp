@@ -54,12 +54,10 @@ struct Scene {
     pairs.lay_out({material(1e8, 2.5e7, 0.215, 0.3, 0.5)}, {middle, n - middle}, law, rules.books);
     for (int pair = 0; pair < n; pair++) {
       const int k = pair < middle ? pair : pairs.segments[1].begin + pair - middle;
-      pairs.a[k] = pair % 3 ? pair : pair + 1;
-      pairs.b[k] = pair % 3 ? pair + 1 : pair;
-      pairs.radius_sum[k] = 2e-3 + 2e-6 * unit(random);
-      pairs.half_difference[k] = 1e-4 * unit(random);
-      pairs.root_mass[k] = 0.013;
-      pairs.es[k] = unit(random);
+      pairs.set_discs(k, pair % 3 ? pair : pair + 1, pair % 3 ? pair + 1 : pair);
+      const double gap = 2e-6 * unit(random), half_difference = 1e-4 * unit(random);
+      pairs.set_constants(k, {2e-3 + gap, half_difference, 0.013});
+      pairs.set_es(k, unit(random));
       if (law == Law::incremental)
         pairs.en[k] = unit(random);
     }
@@ -81,22 +79,24 @@ struct Scene {
 template <Law law, bool limit, bool books>
 void plain_forces(const Disc<double> *discs, const PairColumns &p, const Material &m, int begin, int end, double dt) {
   for (int k = begin; k < end; k++) {
-    const Pair<double> pair{p.radius_sum[k], p.half_difference[k], p.root_mass[k]};
-    History<double> history{p.es[k], law == Law::incremental ? p.en[k] : 0};
+    PairGroup &g = p.groups[k / PairGroup::SIZE];
+    const int lane = k % PairGroup::SIZE;
+    const Pair<double> pair{g.radius_sum[lane], g.half_difference[lane], g.root_mass[lane]};
+    History<double> history{g.es[lane], law == Law::incremental ? p.en[k] : 0};
     Losses<double> losses{};
     if (books)
       losses = {p.friction[k], p.dashpots[k], p.dashpot_n[k], p.dashpot_t[k]};
-    const auto f =
-        contact_force<law, limit, double>(relative(discs[p.a[k]], discs[p.b[k]]), pair, m, dt, history, losses);
+    const auto u = relative(discs[g.a[lane] / PairGroup::ROW], discs[g.b[lane] / PairGroup::ROW]);
+    const auto f = contact_force<law, limit>(u, distance_of(u), pair, m, dt, history, losses);
     if (books) {
       p.friction[k] = losses.friction;
       p.dashpots[k] = losses.dashpots;
       p.dashpot_n[k] = losses.dashpot_n;
       p.dashpot_t[k] = losses.dashpot_t;
     }
-    p.slots[p.slot_a[k]] = f;
-    p.slots[p.slot_b[k]] = opposite(f);
-    p.es[k] = history.es;
+    p.slots[g.slot_a[lane] / PairGroup::SLOT] = f;
+    p.slots[g.slot_b[lane] / PairGroup::SLOT] = opposite(f);
+    g.es[lane] = history.es;
     if (law == Law::incremental)
       p.en[k] = history.en;
   }
@@ -155,7 +155,7 @@ void compare(const Kernels &expected_by, const Kernels &got_by, const ContactRul
     EXPECT_TRUE(same_bits(expected.travel, got.travel, n)) << n << " pairs";
     for (const auto &segment : got.pairs.segments)
       for (int k = segment.begin; k < segment.end; k++) {
-        EXPECT_EQ(expected.pairs.es[k], got.pairs.es[k]) << n << " pairs";
+        EXPECT_EQ(expected.pairs.es(k), got.pairs.es(k)) << n << " pairs";
         if (rules.law == Law::incremental) {
           EXPECT_EQ(expected.pairs.en[k], got.pairs.en[k]) << n << " pairs";
         }
