@@ -21,6 +21,8 @@ public:
   explicit ExactSum(const Words &words) : high(words[0]), low(words[1]), bad(words[2]) {}
 
   void add(double x) {
+    if (x == 0) // most discs of a wall touch nothing
+      return;
     if (!(std::fabs(x) < max_term)) {
       ++bad;
       return;

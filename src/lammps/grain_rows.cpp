@@ -166,16 +166,19 @@ void GrainRows::advance(const cdem::SlotBlock &block, int begin, int end, const 
   kernels.advance_clumps(columns(), begin, end, step, fastest, travel);
 }
 
-void GrainRows::shift(int i, Vector displacement, Vector velocity, Vector ahead) {
-  Disc &row = grains[i];
-  row.x += displacement.x;
-  row.y += displacement.y;
-  row.vx_half = velocity.x;
-  row.vy_half = velocity.y;
-  row.vx = ahead.x;
-  row.vy = ahead.y;
+void GrainRows::shift(const std::vector<int> &walls, Vector displacement, Vector velocity, Vector ahead) {
+  const cdem::Two by{displacement.x, displacement.y};
+  for (int i : walls) {
+    Disc &row = grains[i];
+    cdem::store_raw(&row.x, cdem::load_raw<cdem::Two>(&row.x) + by);
+    row.vx_half = velocity.x;
+    row.vy_half = velocity.y;
+    row.vx = ahead.x;
+    row.vy = ahead.y;
+  }
   if (clumps)
-    expand(i, i + 1);
+    for (int i : walls)
+      expand(i, i + 1);
 }
 
 void GrainRows::write_back() {

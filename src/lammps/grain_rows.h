@@ -53,11 +53,11 @@ public:
   void sum_grain(const cdem::ForceSlots &, int i);
   cdem::DiscForce force_on(int i);
 
-  // A step of a wall disc in translation: its displacement, at this velocity, and that of the dashpots.
+  // A step of wall grains that don't turn: their displacement, at this velocity, and that of the dashpots.
   struct Vector {
     double x, y;
   };
-  void shift(int i, Vector displacement, Vector velocity, Vector ahead);
+  void shift(const std::vector<int> &walls, Vector displacement, Vector velocity, Vector ahead);
 
   // For steps on the rows alone: takes angle and mass of own grains; sums the forces on grains begin ... end-1, those
   // of a block, and steps them; gives back where they are, with the velocities of the half step.

@@ -140,8 +140,7 @@ void WallBody::shift(Vector displacement, Vector velocity) {
   if (rows) {
     const double forward = integrate->step_rule().forward;
     const Vector ahead{velocity.x + forward * acceleration_now.x, velocity.y + forward * acceleration_now.y};
-    for (int i : discs)
-      rows->shift(i, displacement, velocity, ahead);
+    rows->shift(discs, displacement, velocity, ahead);
     return;
   }
   for (int i : discs) {
