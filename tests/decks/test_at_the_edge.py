@@ -71,7 +71,7 @@ def test_one_run_in_many(tmp_path: Path) -> None:
     whole = run(begin + "run 8000\n" + END, tmp_path / "whole", discs=discs, box=box)
     again = "variable state delete\nclear\n" + begin + "run 8000\n" + END
     cut = run(begin + runs + "variable state index cut.dump\n" + END + again, tmp_path / "cut", discs=discs, box=box)
-    assert np.count_nonzero(whole.end["tqz"]) > 20
+    assert np.count_nonzero(whole.end["tqz"]) > 10  # grains still roll
     assert same_bits(whole.end, cut.dump("cut.dump")[0]) and same_bits(whole.end, cut.end)
 
 

@@ -113,8 +113,8 @@ def test_residual_of_a_box_in_motion(tmp_path: Path, law: str, ranks: int, style
         for k in (1, 3)
     )
     assert min(fine[part] for part in ("friction", "dashpots", "walls", "gravity")) > 1e-4
-    # an impact of n = 15 steps on which the force sets in a part of a step too late or too early: up to (pi/n)^2/8 of it
-    assert abs(coarse["residual"]) < 5e-3 * (coarse["friction"] + coarse["dashpots"])
+    # (pi/n)^2/8 of an impact of n = 15 steps would be 5e-3; where forces set in within a step is in the books
+    assert abs(coarse["residual"]) < 5e-4 * (coarse["friction"] + coarse["dashpots"])
     assert abs(fine["residual"]) < abs(coarse["residual"]) / 4
 
 

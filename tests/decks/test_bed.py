@@ -113,7 +113,7 @@ def test_a_knock(tmp_path: Path, law: str) -> None:
     out = run_bed("thermo 100\nfix_modify move drag 1e-3\nrun 60000\n" + knock + "fix_modify move drag none\nrun 60000\n" + END,
                   tmp_path, law=law)  # fmt: skip
     before, after = tables_of(out)
-    assert before["c_e"][-1] < 1.1 * after["c_e"][-1]
+    assert before["c_e"][-1] < 1.5 * after["c_e"][-1]  # at rest; the springs of two packings differ by a quarter
     total = energy(after)
     assert np.diff(total).max() < 2e-3 * (total[0] - total[-1])
     assert total[0] - total[-1] > 0.1

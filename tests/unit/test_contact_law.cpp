@@ -196,26 +196,69 @@ TEST(ContactLaw, TwoDiscsThatTurnAsOneBodyDoNotSlip) {
   EXPECT_NEAR(coarse / fine, 4, 0.1); // second order
 }
 
+const Material NO_SPRING_OR_DASHPOT{};
+
 TEST(Presence, AContactThatLastsHasItsFullShare) {
-  const auto p = presence(1e-6, 0.1, 1e-7);
+  const auto p = presence(1e-6, 2e-6, 0.01, material(KN, KS, 0.2, 0.2, 0.5), 1e-7);
   EXPECT_EQ(p.spring, 1);
-  EXPECT_EQ(p.dashpot, 1);
+  EXPECT_EQ(p.dashpot_n, 1);
+  EXPECT_EQ(p.dashpot_t, 1);
+  EXPECT_EQ(p.impulse, 0);
 }
 
 TEST(Presence, ClosedAFractionOfTheStepAgo) {
-  const double dt = 1e-7, approach = -0.4, fraction = 0.3;
-  const auto p = presence(fraction * 0.4 * dt, approach, dt);
-  EXPECT_NEAR(p.spring, fraction, 1e-12);
-  EXPECT_NEAR(p.dashpot, fraction + 0.5, 1e-12);
+  const auto p = presence(0.3e-6, -0.7e-6, 0.01, NO_SPRING_OR_DASHPOT, 1e-7);
+  EXPECT_NEAR(p.spring, 0.3, 1e-12);
+  EXPECT_NEAR(p.dashpot_n, 0.8, 1e-12);
+  EXPECT_NEAR(p.dashpot_t, 0.8, 1e-12);
 }
 
 TEST(Presence, OpenedAfterAFractionOfTheStep) {
-  const double dt = 1e-7, parting = 0.4, fraction = 0.3;
-  const auto p = presence(-(1 - fraction) * 0.4 * dt, parting, dt);
-  EXPECT_NEAR(p.dashpot, fraction - 0.5, 1e-12);
+  const auto p = presence(-0.7e-6, 0.3e-6, 0.01, NO_SPRING_OR_DASHPOT, 1e-7);
+  EXPECT_NEAR(p.dashpot_n, -0.2, 1e-12);
+  EXPECT_NEAR(p.dashpot_t, -0.2, 1e-12);
 }
 
-TEST(Presence, ApartBeforeAndAfter) { EXPECT_EQ(presence(-1e-6, 0.1, 1e-7).dashpot, 0); }
+TEST(Presence, ApartBeforeAndAfter) {
+  const auto p = presence(-1e-6, -2e-6, 0.01, material(KN, KS, 0.2, 0.2, 0.5), 1e-7);
+  EXPECT_EQ(p.dashpot_n, 0);
+  EXPECT_EQ(p.impulse, 0);
+}
+
+// Coefficient of restitution of two discs of which the law is asked step by step, with so many steps a contact, the
+// worst of some moments in a step at which they may touch first, less exp(-pi h/sqrt(1 - h^2)).
+double worst_error_of_restitution(double h, int steps) {
+  const Material m = material(KN, KS, h, h, 0.5);
+  const double mass = 1e-3, root_mass = 2 * std::sqrt(mass); // that of the pair
+  const double dt = M_PI * std::sqrt(mass / KN / (1 - h * h)) / steps;
+  const Pair<double> pair{2e-3, 0, root_mass * dashpot_in_steps(h, KN * dt * dt / mass, 1)};
+  double worst = 0;
+  for (int phase = 0; phase < 32; phase++) {
+    Disc<double> a{}, b{};
+    a.x = 2e-3 + (phase + 0.5) / 32 * dt;
+    a.vx_half = a.vx = -1;
+    History<double> history{0, 0};
+    NoLosses none;
+    for (int step = 0; step < 1.5 * steps + 3; step++) {
+      const auto u = relative(a, b);
+      const double acceleration =
+          contact_force<Law::direct, false>(u, distance_of(u), pair, m, dt, history, none).fx / mass;
+      a.vx_half += dt * acceleration;
+      a.vx = a.vx_half + 0.5 * dt * acceleration;
+      a.x += dt * a.vx_half;
+    }
+    worst = std::max(worst, std::fabs(a.vx_half - std::exp(-M_PI * h / std::sqrt(1 - h * h))));
+  }
+  return worst;
+}
+
+TEST(ContactLaw, NormalImpactIsOfThirdOrder) {
+  for (double h : {0.05, 0.215, 0.5}) {
+    const double coarse = worst_error_of_restitution(h, 20), fine = worst_error_of_restitution(h, 40);
+    EXPECT_LT(coarse, 1e-3) << h;
+    EXPECT_GT(coarse / fine, 6) << h;
+  }
+}
 
 // The scheme that a pair sees, alone: velocity Verlet, the dashpot's velocity carried forward by half a step. The decay
 // of x'' + 2 h x' + x = 0 over a step is exp(-h dt); that of a sequence of lambda^n is its product of two neighbours
