@@ -38,7 +38,7 @@ def left_at_opening(directory: Path, law: str, dt: float, phi: float) -> np.ndar
     for frame in out.dump("contacts.dump"):
         force, overlap = frame["c_contacts[2]"], frame["c_contacts[3]"]
         touching = overlap > 0
-        assert np.all(force[~touching] == 0)
+        assert np.abs(force[~touching]).max(initial=0) < ROUND_OFF
         left[(frame["c_contacts[1]"].astype(int)[touching] - 1) // 2] = (force - STIFFNESS * overlap)[touching]
     assert len(frame["c_contacts[1]"]) == 0, "some are not apart yet"
     return left.reshape(len(SINES), PHASES)
