@@ -285,8 +285,7 @@ double PairCDEM::room() const {
   for (int i = 0; i < atom->nlocal; i++) {
     const double moved = neighbours_built_at[i].moved(rows.of_grain(i));
     if (!std::isfinite(moved))
-      error->one(FLERR, "Pair style cdem: atom {} is at ({}, {})", atom->tag[i], rows.of_grain(i).x,
-                 rows.of_grain(i).y);
+      return -INFINITY; // before the list is rebuilt, the guard says which atom it is
     most = std::max(most, moved);
   }
   return 0.5 * neighbor->skin - most;
@@ -358,7 +357,7 @@ void PairCDEM::build_list() {
 }
 
 // The skin of the list of disc pairs that costs least, see core/list_skin.h. A pair that opens in this step must stay
-// for another one: its dashpot may have a share left. The bits of the forces don't depend on the skin.
+// for another one: its forces may have a share left. The bits of the forces don't depend on the skin.
 void PairCDEM::choose_skin() {
   constexpr double LEAST = 0.01, SAFETY = 8;
   const double largest = neighbor->skin;
@@ -482,7 +481,7 @@ double PairCDEM::overlap(int k) const {
 // A pair across a border is on two ranks (or twice on one, if periodic): the owner of disc a counts it.
 bool PairCDEM::counts(int k) const { return rows.grain(pairs.a(k)) < block_starts.back(); }
 
-// Also in the step after it opened, in which its dashpot may have a share left.
+// Also in the step after it opened, in which its forces may have a share left.
 bool PairCDEM::acts(int k) const {
   const cdem::Forces<double> &on_a = pairs.force[k];
   return overlap(k) > 0 || on_a.fx != 0 || on_a.fy != 0;

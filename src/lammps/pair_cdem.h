@@ -36,7 +36,7 @@ class FixCDEMIntegrate;
 class PairCDEM : public Pair {
 public:
   // A contact of the last step. t = n turned by +90 degrees; the force on disc a is fn n + ft t. One that opened within
-  // the step is still there, with what is left of its dashpot and an overlap below zero.
+  // the step is still there, with what is left of its forces and an overlap below zero.
   struct Contact {
     tagint tag_a, tag_b;
     int disc_a, disc_b;
