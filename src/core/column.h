@@ -22,8 +22,12 @@ template <class T> struct CacheLineAllocator {
 
 template <class T> class Column : public std::vector<T, CacheLineAllocator<T>> {
 public:
-  // n entries, all zero.
-  void reset(std::size_t n) { this->assign(n, T{}); }
+  // n entries, all zero. If that takes other memory, the old is given back before.
+  void reset(std::size_t n) {
+    if (n > this->capacity())
+      Column().swap(*this);
+    this->assign(n, T{});
+  }
 };
 
 } // namespace cdem

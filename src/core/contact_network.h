@@ -53,6 +53,9 @@ private:
 
 class ContactNetwork {
 public:
+  // Room for so many contacts, each counted with both of its grains.
+  void reserve(std::size_t contacts) { links.reserve(contacts); }
+
   // Own grains are added in turn, each followed by its contacts; a wall has inverses of 0.
   void add_grain(double inverse_mass, double inverse_inertia) {
     by_mass = std::sqrt(inverse_mass);
@@ -62,11 +65,10 @@ public:
   }
 
   // A contact of the last grain with grain `other` (an own one or a ghost): unit normal (nx, ny), place (ox, oy) from
-  // the centre of the grain, and 2 sqrt(m) of the pair.
+  // the centre of the grain, and 2 sqrt(m) of the pair. The material must outlive the network.
   void add_contact(int other, double nx, double ny, double ox, double oy, double root_mass, const Material &m) {
-    links.push_back({other,
-                     {nx * by_mass, ny * by_mass, (ox * ny - oy * nx) * by_inertia, m.kn, m.dn * root_mass},
-                     {-ny * by_mass, nx * by_mass, (ox * nx + oy * ny) * by_inertia, m.ks, m.ds * root_mass}});
+    links.push_back({nx * by_mass, ny * by_mass, (ox * ny - oy * nx) * by_inertia, (ox * nx + oy * ny) * by_inertia,
+                     root_mass, &m, other});
   }
 
   // A stable step, found from a first guess; stops before the best bound when it is `enough`. INFINITY without
@@ -104,25 +106,27 @@ public:
 private:
   static constexpr double ALLOWED = 4;
 
-  // A direction of motion of a grain, over the roots of mass and inertia; stiffness and dashpot.
-  struct Direction {
-    double x, y, turn;
-    double k, c;
-    double load(double dt) const { return (k * dt + 2 * c) * dt; }
-  };
+  // A contact as one of its grains has it: its normal, and how it moves along normal and tangent as the grain turns,
+  // over the roots of mass and inertia.
   struct Link {
+    double x, y, turn_n, turn_t;
+    double root_mass;
+    const Material *material;
     int other;
-    Direction normal, tangent;
   };
+
+  static double load(double stiffness, double dashpot, double dt) { return (stiffness * dt + 2 * dashpot) * dt; }
 
   int end(int i) const { return i + 1 < int(first.size()) ? first[i + 1] : int(links.size()); }
 
   double load(int i, double dt, const std::vector<double> &weights) const {
     Squares sum;
     for (int k = first[i]; k < end(i); k++) {
-      const double factor = moves[i] ? 1 + weights[links[k].other] / weights[i] : 0;
-      for (const Direction &d : {links[k].normal, links[k].tangent})
-        sum.add(factor * d.load(dt), d.x, d.y, d.turn);
+      const Link &l = links[k];
+      const Material &m = *l.material;
+      const double factor = moves[i] ? 1 + weights[l.other] / weights[i] : 0;
+      sum.add(factor * load(m.kn, m.dn * l.root_mass, dt), l.x, l.y, l.turn_n);
+      sum.add(factor * load(m.ks, m.ds * l.root_mass, dt), -l.y, l.x, l.turn_t);
     }
     return sum.largest();
   }
