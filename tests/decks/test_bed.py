@@ -127,7 +127,7 @@ def test_a_quiet_bed_stays_where_it_is(tmp_path: Path, law: str) -> None:
     whose dashpots hold what the last bit of a coordinate is to a spring, 2e-18 m x 1e8 N/m; a step of theirs is less than
     half of that bit. A grain that hardly touches may hop to and fro by some thousand bits; drift at such a speed would be
     40 times the tolerance. Only sums that begin at 0 go on, as the angle does. For 1e7 steps: tests/validation/long."""
-    rest = "thermo 20000\nfix_modify move drag 1e-4\nrun 80000\nfix_modify move drag none\nrun 80000\n"
+    rest = "thermo 20000\nfix_modify move drag 1e-4\nrun 80000\nfix_modify move drag none\nrun 120000\n"
     watch = "dump q all custom 20000 q.dump id x y vx vy f_move[4]\ndump_modify q sort id format float %.17g\nrun 200000\n"
     out = run_bed(rest + watch, tmp_path, law=law)
     before, *_, after = out.dump("q.dump")
