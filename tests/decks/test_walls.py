@@ -198,8 +198,8 @@ def test_forces_on_the_walls_sum_to_the_whole(tmp_path: Path, law: str, ranks: i
     variable weight equal mass(grains)*1000
     thermo_style custom step f_lid[6] f_lid[2] f_floor[3] f_floor[4] f_sides[3] f_sides[4] c_f[1] c_f[2] c_grains[1] c_grains[2] v_weight
     thermo_modify format float %.17g
-    thermo 1
-    run 20
+    thermo 20
+    run 400
     """
     discs, box = mini_box()
     thermo = run(deck, tmp_path, discs=discs, box=box, law=law, ranks=ranks).thermo
