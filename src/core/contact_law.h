@@ -107,11 +107,7 @@ template <class T> struct Presence {
 };
 
 // The same where no contact closed or opened in the step: fewer instructions, and no other bits.
-template <class T> struct Steady {
-  const T spring = T(1);
-  T dashpot_n, dashpot_t;
-  const T impulse = T(0), loss = T(0);
-};
+template <class T> struct Steady { T spring, dashpot_n, dashpot_t, impulse, loss; };
 
 template <class T> [[gnu::always_inline]] inline Steady<T> steady(T overlap) {
   const T weight = select(overlap > T(0), T(1), T(0));
@@ -124,7 +120,7 @@ template <class T>
   const auto touch = overlap > T(0), changed = touch != (before > T(0));
   const Steady<T> lasting = steady(overlap);
   const T X = magnitude(overlap - before), f = select(touch, overlap, before) / select(changed, X, T(1));
-  const T b = smaller(T(4 * m.dn * dt) / root_mass, T(1));
+  const T ratio = T(4 * m.dn * dt) / root_mass, b = select(ratio < T(1), ratio, T(1));
   const T share = f + select(touch, T(0.5), T(-0.5));
   const T second_order = b * select(touch, T(-5. / 12), T(0.5) * f - T(1. / 3));
   const T kx = T(m.dn > 0 ? m.kn / 6 : 0) * X, impulse = kx * (T(1) - T(3) * f * (T(1) - f));

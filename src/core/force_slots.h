@@ -105,6 +105,8 @@ public:
     }
   }
 
+  int summed() const { return total; } // slots of all discs: so many pairs, each counted with both
+
   // Calls visit(k) for every pair k of a disc.
   template <class Visit> void for_each(int row, Visit visit) const {
     const auto begin = pair_of_slot.begin() + first_pair[row];

@@ -45,7 +45,6 @@ template <class R> [[gnu::always_inline]] inline void store_raw(double *to, R r)
 inline double select(bool condition, double yes, double no) { return condition ? yes : no; }
 inline double square_root(double x) { return std::sqrt(x); }
 inline double magnitude(double x) { return std::fabs(x); }
-inline double smaller(double a, double b) { return b < a ? b : a; }
 inline double with_sign_of(double size, double sign) { return std::copysign(size, sign); }
 inline bool any(bool condition) { return condition; }
 
@@ -78,7 +77,6 @@ template <class Abi> inline Lanes<Abi> select(LaneMask<Abi> condition, Lanes<Abi
 }
 template <class Abi> inline Lanes<Abi> square_root(Lanes<Abi> x) { return stdx::sqrt(x); }
 template <class Abi> inline Lanes<Abi> magnitude(Lanes<Abi> x) { return stdx::abs(x); }
-template <class Abi> inline Lanes<Abi> smaller(Lanes<Abi> a, Lanes<Abi> b) { return select(b < a, b, a); }
 template <class Abi> inline Lanes<Abi> with_sign_of(Lanes<Abi> size, Lanes<Abi> sign) {
   return stdx::copysign(size, sign);
 }

@@ -17,11 +17,8 @@ using namespace LAMMPS_NS;
 double ContactLimit::find(double enough) {
   const auto *const pair = static_cast<PairCDEM *>(force->pair);
   const GrainRows &rows = pair->rows;
-  std::size_t contacts = 0;
-  for (int own = 0; own < rows.rows_of(atom->nlocal); own++)
-    pair->for_each_touching(own, [&](int, double) { contacts++; });
   cdem::ContactNetwork network;
-  network.reserve(contacts);
+  network.reserve(pair->most_touching());
   for (int i = 0; i < atom->nlocal; i++) {
     const auto [inverse_mass, inverse_inertia] = integrate->inverse(i);
     network.add_grain(inverse_mass, inverse_inertia);

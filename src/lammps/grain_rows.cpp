@@ -167,10 +167,10 @@ void GrainRows::advance(const cdem::SlotBlock &block, int begin, int end, const 
 }
 
 void GrainRows::shift(const std::vector<int> &walls, Vector displacement, Vector velocity, Vector ahead) {
-  const cdem::Two by{displacement.x, displacement.y};
   for (int i : walls) {
     Disc &row = grains[i];
-    cdem::store_raw(&row.x, cdem::load_raw<cdem::Two>(&row.x) + by);
+    row.x += displacement.x;
+    row.y += displacement.y;
     row.vx_half = velocity.x;
     row.vy_half = velocity.y;
     row.vx = ahead.x;
