@@ -23,12 +23,20 @@ struct alignas(64) PairGroup {
   double es[SIZE];
 };
 
+// What will be needed soon after the pairs of a block: the rows that no block has read yet, and the bodies of the
+// block's grains. The loop over the pairs has them fetched, so many lines of the cache for each group from `since` on.
+struct Ahead {
+  const PairGroup *since = nullptr;
+  const void *rows = nullptr, *bodies = nullptr;
+};
+
 // The pairs as the kernels see them. Columns have one entry a pair.
 struct PairColumns {
   PairGroup *groups; // one more may be read than there are
   Forces<double> *slots;
   double *en;                                          // of the incremental law
   double *friction, *dashpots, *dashpot_n, *dashpot_t; // see Losses
+  Ahead ahead{};
 };
 
 class DiscPairs {

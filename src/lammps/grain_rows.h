@@ -38,6 +38,7 @@ public:
   const cdem::Disc<double> *discs() const { return clumps ? disc_rows.data() : grains.data(); }
   const cdem::Disc<double> &operator[](int row) const { return discs()[row]; }
   const cdem::Disc<double> &of_grain(int i) const { return grains[i]; }
+  const cdem::Body *body(int i) const { return bodies.data() + i; }
   double angle(int i) const { return bodies[i].angle; } // of clumps
 
   // Own grains begin ... end-1 from the atoms' arrays, with the dashpots' velocity carried forward (s). Ghosts are

@@ -228,8 +228,13 @@ void PairCDEM::unpack_forward_comm(int n, int first, double *buf) { rows.unpack(
 void PairCDEM::pair_forces(int block) {
   history_in_list = true;
   const double dt = update->setupflag ? 0 : update->dt;
-  const cdem::PairColumns columns = pairs.columns(slots.data());
-  for (int k = pairs.first_segment[block]; k < pairs.first_segment[block + 1]; k++) {
+  const int begin = pairs.first_segment[block], end = pairs.first_segment[block + 1];
+  if (begin == end)
+    return;
+  cdem::PairColumns columns = pairs.columns(slots.data());
+  columns.ahead = {columns.groups + pairs.segments[begin].begin / cdem::PairGroup::SIZE,
+                   rows.discs() + slots.last_read(block), rows.body(block_starts[block])};
+  for (int k = begin; k < end; k++) {
     const auto &segment = pairs.segments[k];
     kernels.forces(rows.discs(), columns, segment.material, segment.begin, segment.end, dt);
   }
