@@ -58,7 +58,8 @@ template <class T> struct Pair {
   T root_mass; // 2 sqrt(m), m = m_a m_b/(m_a + m_b), or the grain's mass against a wall; times dashpot_in_steps
 };
 
-// What a contact remembers: the tangential spring force, and for the incremental law the normal one (N).
+// What a contact remembers: the tangential spring force, and for the incremental law the normal one (N). The former is
+// marked (lanes.h) as long as the contact sticks.
 template <class T> struct History { T es, en; };
 
 // Force on the first disc, and the torques on both, about the disc centres.
@@ -196,20 +197,51 @@ template <class T>
   return c;
 }
 
-// A contact that sticks until it opens lets go of a stretched spring and of a dashpot. They acted during f of the step,
-// and the time integration has given them half of it when they were last seen: the difference is made good now. (One
-// that slides has no force left to let go.)
+// The tangential spring of a pair in this step and before it, what it would be without friction's limit, and that
+// limit.
+template <class T> struct Friction {
+  T es, trial, limit;
+  T es_before, limit_before;
+};
+
+// What the tangential force of a pair lacks that closed in the step and sticks, or stuck until it opened and so let go
+// of a stretched spring and of a dashpot. The spring acted during f of the step, and changed uniformly; the time
+// integration gives it the mean of before and now for all of it. (Where a contact slides its spring is mu times the
+// normal one, and so is its impulse.)
 template <class T>
-[[gnu::always_inline]] inline T let_go(const Meeting<T> &c, const Presence<T> &share, const Pair<T> &pair,
-                                       const Material &m, T en_before, T es_before, T trial) {
-  constexpr double FAR = 0.5; // from sliding
-  const auto sticks = magnitude(es_before) < T(FAR * m.mu) * en_before;
-  const T spring = T(0.5) * fused(share.spring, es_before + trial, -es_before);
+[[gnu::always_inline]] inline T lacking(const Meeting<T> &c, const Presence<T> &share, const Pair<T> &pair,
+                                        const Friction<T> &f, const Material &m) {
+  constexpr double FAR = 0.5; // from sliding, which sets in before the contact opens
+  const auto touch = c.overlap > T(0), touched = c.before > T(0);
+  const auto closes = touch && !touched && magnitude(f.trial) < f.limit;
+  const auto opens = touched && !touch && magnitude(f.es_before) < T(FAR) * f.limit_before;
+  const T spring = T(0.5) * fused(share.spring, f.es_before + f.trial, -(f.es_before + f.es));
   const T dashpot = T(-m.ds) * (pair.root_mass * share.dashpot_t) * c.now.t;
-  return select(c.before > T(0) && c.overlap <= T(0) && sticks, spring + dashpot, T(0));
+  return select(closes, spring, select(opens, spring + dashpot, T(0)));
 }
-template <class T> inline T let_go(const Meeting<T> &, const Steady<T> &, const Pair<T> &, const Material &, T, T, T) {
+template <class T>
+inline T lacking(const Meeting<T> &, const Steady<T> &, const Pair<T> &, const Friction<T> &, const Material &) {
   return T(0);
+}
+
+// Of pairs some of which began or ceased to slide in the step: what their tangential dashpot counts beside its weight,
+// by the rule of Presence, as it acts while the contact sticks. One that sticks until a fraction f of the step got 1/2
+// when it was last seen, one that sticks from then on gets 1 now instead of 1 - f + 1/2. A spring reaches its limit as
+// if both changed uniformly. A contact slides as long as the spring, but for the limit, gains on it, at a rate that is
+// known for the middle of the step and for its end.
+template <class T, class Mask>
+[[gnu::always_inline]] inline T weight_of_switch(const Meeting<T> &c, const Friction<T> &f, Mask stuck, Mask sticks,
+                                                 const Material &m, double dt) {
+  const auto both = c.before > T(0) && c.overlap > T(0);
+  const T excess = magnitude(f.trial) - f.limit, room = f.limit_before - magnitude(f.es_before);
+  const auto begins = both && stuck && !sticks && room > T(0);
+  const T until = room / select(begins, room + excess, T(1));
+
+  const T slip = with_sign_of(T(m.ks * dt), f.es_before) * c.now.t;
+  const T middle = excess + room, end = fused(T(m.mu * m.kn * dt), c.now.n, -slip);
+  const auto ceases = both && !stuck && sticks && end < T(0) && end < middle;
+  const T part = T(0.5) * end / select(ceases, end - middle, T(1)), since = select(part < T(1), part, T(1));
+  return select(begins, until - T(0.5), select(ceases, since - T(0.5), T(0)));
 }
 
 // The forces of pairs that are present so.
@@ -227,23 +259,27 @@ template <Law law, bool limit_damping, class T, class Share, class Books>
   }
 
   // Apart, the limit is 0, which clears the history.
-  const T limit = law == Law::direct ? T(m.mu) * en : T(m.mu) * select(en > T(0), en, T(0));
-  const T es_before = history.es, trial = fused(T(-m.ks * dt) * c.step.t, share.spring, es_before);
-  const auto slides = magnitude(trial) >= limit;
-  const T es = select(slides, with_sign_of(limit, trial), trial);
-  history.es = es;
+  const T limit = unmarked(T(m.mu) * (law == Law::direct ? en : select(en > T(0), en, T(0))));
+  const T es_before = history.es, trial = unmarked(fused(T(-m.ks * dt) * c.step.t, share.spring, es_before));
+  const auto stuck = is_marked(history.es), sticks = magnitude(trial) < limit;
+  const T es = select(sticks, trial, with_sign_of(limit, trial));
+  history.es = select(sticks, marked(es), es);
+  T weight_t = select(sticks, share.dashpot_t, T(0));
+  const Friction<T> friction{es, trial, limit, es_before, T(m.mu) * en_before};
+  if (any(sticks != stuck))
+    weight_t += weight_of_switch(c, friction, stuck, sticks, m, dt);
 
   T fn = fused(T(-m.dn) * (pair.root_mass * share.dashpot_n), c.now.n, en);
   if constexpr (limit_damping)
     fn = select(touch && fn > T(0), fn, T(0));
-  T ft = select(slides, es, fused(T(-m.ds) * (pair.root_mass * share.dashpot_t), c.now.t, es));
+  T ft = fused(T(-m.ds) * (pair.root_mass * weight_t), c.now.t, es);
 
   // Dashpots that may not pull end before the discs part, and smoothly.
   const T impulse = limit_damping ? select(touch, share.impulse, T(0)) : share.impulse;
   const T loss = limit_damping ? select(touch, share.loss, T(0)) : share.loss;
   book(books, c.step, {fn - en, ft - es}, loss, es_before, trial, es, m, dt);
   fn += impulse;
-  ft += let_go(c, share, pair, m, en_before, es_before, trial);
+  ft += lacking(c, share, pair, friction, m);
   const T back = -ft;
   return {fused(fn, c.nx, back * c.ny), fused(fn, c.ny, ft * c.nx), back * c.lever_a, back * c.lever_b};
 }

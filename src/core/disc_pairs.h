@@ -24,9 +24,8 @@ struct alignas(64) PairGroup {
 };
 
 // What will be needed soon after the pairs of a block: the rows that no block has read yet, and the bodies of the
-// block's grains. The loop over the pairs has them fetched, so many lines of the cache for each group from `since` on.
+// block's grains. The loop over the pairs fetches some of both with every group.
 struct Ahead {
-  const PairGroup *since = nullptr;
   const void *rows = nullptr, *bodies = nullptr;
 };
 

@@ -29,18 +29,21 @@ template <class T> void store_losses(const PairColumns &p, int k, const Losses<T
   store(p.dashpot_t + k, l.dashpot_t);
 }
 
-[[gnu::always_inline]] inline void prefetch(const void *memory, std::ptrdiff_t first_line, int lines) {
+template <int lines> [[gnu::always_inline]] inline const void *prefetch(const void *memory) {
+  constexpr int LINE = 64;
+  const char *const begin = static_cast<const char *>(memory);
   for (int l = 0; l < lines; l++)
-    __builtin_prefetch(static_cast<const char *>(memory) + 64 * (first_line + l));
+    __builtin_prefetch(begin + LINE * l);
+  return begin + LINE * lines;
 }
 
 // Groups ahead, and what the block's grains and the next block will need: without this a scene that does not fit into
 // the second cache waits for memory.
-[[gnu::always_inline]] inline void prefetch(const PairGroup *group, const Ahead &ahead) {
-  constexpr int GROUPS = 8, ROWS = 4, BODIES = 2; // three grains have some eight pairs
-  prefetch(group + GROUPS, 0, sizeof(PairGroup) / 64);
-  prefetch(ahead.rows, ROWS * (group - ahead.since), ROWS);
-  prefetch(ahead.bodies, BODIES * (group - ahead.since), BODIES);
+[[gnu::always_inline]] inline void prefetch(const PairGroup *group, Ahead &ahead) {
+  constexpr int GROUPS = 8;
+  prefetch<sizeof(PairGroup) / 64>(group + GROUPS);
+  ahead.rows = prefetch<4>(ahead.rows); // three grains have some eight pairs
+  ahead.bodies = prefetch<2>(ahead.bodies);
 }
 
 // Root and division of the next pairs are begun before the law is applied to these: see Distance.
@@ -50,11 +53,12 @@ void forces(const Disc<double> *discs, const PairColumns &columns, const Materia
   const PairColumns p = columns; // copies: what is stored below could otherwise change them
   const Material m = material;
   constexpr int SIZE = PairGroup::SIZE;
+  Ahead ahead = p.ahead;
   PairGroup *group = p.groups + begin / SIZE, *const group_end = p.groups + (end + SIZE - 1) / SIZE;
   Relative<T> relative = load_relative(discs, group->a, group->b, T());
   Distance<T> distance = distance_of(relative);
   for (; group != group_end; ++group) {
-    prefetch(group, p.ahead);
+    prefetch(group, ahead);
     for (int lane = 0; lane < SIZE; lane += WIDTH) {
       const PairGroup &next_group = group[(lane + WIDTH) / SIZE];
       const int next_lane = (lane + WIDTH) % SIZE;

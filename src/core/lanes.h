@@ -20,7 +20,10 @@ namespace cdem {
 
 // Two, four, eight doubles as the compiler knows them. What works on them is compiled for several instruction sets, and
 // must not be shared between these: it is inlined always.
-template <int W> struct Raw { typedef double type __attribute__((vector_size(W * sizeof(double)))); };
+template <int W> struct Raw {
+  typedef double type __attribute__((vector_size(W * sizeof(double))));
+  typedef long long bits __attribute__((vector_size(W * sizeof(double))));
+};
 using Two = Raw<2>::type;
 using Four = Raw<4>::type;
 
@@ -45,8 +48,23 @@ template <class R> [[gnu::always_inline]] inline void store_raw(double *to, R r)
 inline double select(bool condition, double yes, double no) { return condition ? yes : no; }
 inline double square_root(double x) { return std::sqrt(x); }
 inline double magnitude(double x) { return std::fabs(x); }
-inline double with_sign_of(double size, double sign) { return std::copysign(size, sign); }
+inline double with_sign_of(double size, double sign) { return std::copysign(size, sign); } // size >= 0
 inline bool any(bool condition) { return condition; }
+
+// A yes or no in the last bit of a number, which changes this by 2e-16 of itself at most.
+inline unsigned long long bits(double x) {
+  unsigned long long bits;
+  std::memcpy(&bits, &x, sizeof(bits));
+  return bits;
+}
+inline double of_bits(unsigned long long bits) {
+  double x;
+  std::memcpy(&x, &bits, sizeof(x));
+  return x;
+}
+inline bool is_marked(double x) { return bits(x) & 1; }
+inline double marked(double x) { return of_bits(bits(x) | 1); }
+inline double unmarked(double x) { return of_bits(bits(x) & ~1ull); }
 
 // a b + c, rounded once where the machine has an instruction for it. x86-64 has none in its baseline: there the last
 // bits are those of two roundings.
@@ -71,14 +89,21 @@ template <class Abi> inline auto raw(Lanes<Abi> lanes) {
   return r;
 }
 
+template <class Abi> [[gnu::always_inline]] inline auto bits(Lanes<Abi> lanes) {
+  return (typename Raw<Lanes<Abi>::size()>::bits)raw(lanes);
+}
+template <class Abi, class Bits> [[gnu::always_inline]] inline Lanes<Abi> of_bits(Bits bits) {
+  return Lanes<Abi>((typename Raw<Lanes<Abi>::size()>::type)bits);
+}
+
 template <class Abi> inline Lanes<Abi> select(LaneMask<Abi> condition, Lanes<Abi> yes, Lanes<Abi> no) {
   stdx::where(condition, no) = yes;
   return no;
 }
 template <class Abi> inline Lanes<Abi> square_root(Lanes<Abi> x) { return stdx::sqrt(x); }
 template <class Abi> inline Lanes<Abi> magnitude(Lanes<Abi> x) { return stdx::abs(x); }
-template <class Abi> inline Lanes<Abi> with_sign_of(Lanes<Abi> size, Lanes<Abi> sign) {
-  return stdx::copysign(size, sign);
+template <class Abi> [[gnu::always_inline]] inline Lanes<Abi> with_sign_of(Lanes<Abi> size, Lanes<Abi> sign) {
+  return of_bits<Abi>(bits(size) | (bits(sign) & bits(Lanes<Abi>(-0.0))));
 }
 template <class Abi> inline Lanes<Abi> fused(Lanes<Abi> a, Lanes<Abi> b, Lanes<Abi> c) {
   [[maybe_unused]] constexpr int W = Lanes<Abi>::size(); // the library's own fma falls apart into scalars in GCC 12
@@ -109,6 +134,15 @@ template <class Abi> inline Lanes<Abi> fused_minus(Lanes<Abi> a, Lanes<Abi> b, L
   return fused(a, b, -c);
 }
 template <class Abi> inline bool any(LaneMask<Abi> condition) { return stdx::any_of(condition); }
+
+template <class Abi> [[gnu::always_inline]] inline LaneMask<Abi> is_marked(Lanes<Abi> x) {
+  constexpr int EXPONENT = 52; // where the bit makes a number that is not denormal
+  return of_bits<Abi>((bits(x) & 1) << EXPONENT) > Lanes<Abi>(0);
+}
+template <class Abi> [[gnu::always_inline]] inline Lanes<Abi> marked(Lanes<Abi> x) { return of_bits<Abi>(bits(x) | 1); }
+template <class Abi> [[gnu::always_inline]] inline Lanes<Abi> unmarked(Lanes<Abi> x) {
+  return of_bits<Abi>(bits(x) & ~1ll);
+}
 #endif
 
 } // namespace cdem

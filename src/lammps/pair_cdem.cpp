@@ -228,13 +228,9 @@ void PairCDEM::unpack_forward_comm(int n, int first, double *buf) { rows.unpack(
 void PairCDEM::pair_forces(int block) {
   history_in_list = true;
   const double dt = update->setupflag ? 0 : update->dt;
-  const int begin = pairs.first_segment[block], end = pairs.first_segment[block + 1];
-  if (begin == end)
-    return;
   cdem::PairColumns columns = pairs.columns(slots.data());
-  columns.ahead = {columns.groups + pairs.segments[begin].begin / cdem::PairGroup::SIZE,
-                   rows.discs() + slots.last_read(block), rows.body(block_starts[block])};
-  for (int k = begin; k < end; k++) {
+  columns.ahead = {rows.discs() + slots.last_read(block), rows.body(block_starts[block])};
+  for (int k = pairs.first_segment[block]; k < pairs.first_segment[block + 1]; k++) {
     const auto &segment = pairs.segments[k];
     kernels.forces(rows.discs(), columns, segment.material, segment.begin, segment.end, dt);
   }
@@ -548,11 +544,10 @@ void PairCDEM::book_losses() {
   });
 }
 
-PairCDEM::Contact PairCDEM::contact(int k, const cdem::Material &m) const {
+PairCDEM::Contact PairCDEM::contact(int k) const {
   const int p = pairs.a(k), q = pairs.b(k);
   const double dx = rows[p].x - rows[q].x, dy = rows[p].y - rows[q].y, distance = std::hypot(dx, dy);
   const auto [fx, fy, torque_a, torque_b] = pairs.force[k];
-  constexpr double ROUND_OFF = 1e-10;
 
   Contact c;
   c.tag_a = atom->tag[rows.grain(p)];
@@ -567,17 +562,16 @@ PairCDEM::Contact PairCDEM::contact(int k, const cdem::Material &m) const {
   c.fn = fx * c.nx + fy * c.ny;
   c.ft = fy * c.nx - fx * c.ny;
   c.overlap = overlap(k);
-  const double en = law == cdem::Law::direct ? m.kn * c.overlap : pairs.en[k];
-  c.sliding = std::fabs(pairs.es(k)) >= (1 - ROUND_OFF) * m.mu * en;
+  c.sliding = !cdem::is_marked(pairs.es(k));
   c.mine = counts(k);
   return c;
 }
 
 std::vector<PairCDEM::Contact> PairCDEM::contacts() const {
   std::vector<Contact> all;
-  pairs.for_each([&](int k, const cdem::Material &m) {
+  pairs.for_each([&](int k, const cdem::Material &) {
     if (acts(k))
-      all.push_back(contact(k, m));
+      all.push_back(contact(k));
   });
   return all;
 }
@@ -599,7 +593,7 @@ double PairCDEM::single(int i, int j, int itype, int jtype, double, double, doub
     const int p = pairs.a(k), q = pairs.b(k), other = rows.grain(p) == i ? rows.grain(q) : rows.grain(p);
     if (atom->tag[other] != atom->tag[j] || !acts(k))
       return;
-    const Contact c = contact(k, materials[itype][jtype]);
+    const Contact c = contact(k);
     const auto [normal, tangential] = spring_energy(k, materials[itype][jtype]);
     energy += normal + tangential;
     fforce += c.fn / std::hypot(rows[p].x - rows[q].x, rows[p].y - rows[q].y);

@@ -132,7 +132,7 @@ private:
   double overlap(int k) const;
   bool acts(int k) const;
   SpringEnergy spring_energy(int k, const cdem::Material &) const;
-  Contact contact(int k, const cdem::Material &) const;
+  Contact contact(int k) const;
   bool counts(int k) const;
 
   cdem::Law law = cdem::Law::direct;

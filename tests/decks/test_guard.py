@@ -161,7 +161,7 @@ def test_the_limit_of_contacts_is_the_same_for_any_number_of_ranks(tmp_path: Pat
         status, output = box(tmp_path / str(ranks), ranks=ranks, fraction=0.5, steps=300)
         assert status == 0, output[-1500:]
         limits.append(re.findall(r"^ +\d+ +(\d\S+) *$", output, re.MULTILINE))
-    assert len(limits[0]) > 40 and len(set(limits[0])) > 5
+    assert len(limits[0]) > 30 and len(set(limits[0])) > 5  # while nothing touches there is none
     assert limits[1] == limits[0] and limits[2] == limits[0]
 
 

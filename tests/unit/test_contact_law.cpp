@@ -107,10 +107,19 @@ TEST(ContactLaw, FrictionIsLimitedExactlyAndHasNoDashpotThen) {
   for (double direction : {1., -1.}) {
     Scene s(1e-6);
     const auto f = s.moving(0, direction * 100).force();
-    const double overlap = s.radius_a + s.radius_b - s.a.x, limit = MU * (KN * overlap);
+    const double overlap = s.radius_a + s.radius_b - s.a.x, limit = unmarked(MU * (KN * overlap));
     EXPECT_EQ(s.history.es, -direction * limit);
     EXPECT_DOUBLE_EQ(f.fy, -direction * limit);
   }
+}
+
+TEST(ContactLaw, TheSpringIsMarkedAsLongAsTheContactSticks) {
+  Scene s(1e-6);
+  s.moving(0, 1e-3).force();
+  EXPECT_TRUE(is_marked(s.history.es));
+  EXPECT_NEAR(s.history.es, -KS * 1e-3 * DT, 1e-9 * KS * 1e-3 * DT);
+  s.moving(0, 100).force();
+  EXPECT_FALSE(is_marked(s.history.es));
 }
 
 TEST(ContactLaw, TheLimitIsThatOfTheElasticForceNotOfTheDashpot) {
@@ -129,9 +138,10 @@ TEST(ContactLaw, ASmoothWallHasNoTangentialForce) {
 
 TEST(ContactLaw, WithoutTimeTheHistoryStays) {
   Scene s(1e-6);
-  s.history = {12, 99};
+  const double es = marked(12);
+  s.history = {es, 99};
   s.moving(0.1, 0.1, 5).force<Law::incremental>(0);
-  EXPECT_EQ(s.history.es, 12);
+  EXPECT_EQ(s.history.es, es);
   EXPECT_EQ(s.history.en, 99);
 }
 
@@ -225,6 +235,31 @@ TEST(Presence, ApartBeforeAndAfter) {
   EXPECT_EQ(p.impulse, 0);
 }
 
+// In all of these the contact lasts.
+Meeting<double> lasting(double approach, double slip) {
+  Meeting<double> c{};
+  c.overlap = c.before = 1e-6;
+  c.now = {approach, slip};
+  return c;
+}
+
+TEST(Switch, BeginsToSlideAfterAFractionOfTheStep) {
+  const Friction<double> friction{-10, -14, 10, -4, 10};
+  EXPECT_NEAR(weight_of_switch(lasting(0, 0), friction, true, false, steel, DT), 0.6 - 0.5, 1e-12);
+}
+
+TEST(Switch, SticksSinceAFractionOfTheStep) {
+  // Free of the limit, the spring would lose 1 N in the step, and loses 3 N a step at its end: since 3/4 of a step.
+  const double slip = 3 / (KS * DT), approach = 3 / (MU * KN * DT);
+  for (const auto &c : {lasting(0, slip), lasting(-approach, 0)})
+    EXPECT_NEAR(weight_of_switch(c, {9, 9, 10, 10, 10}, false, true, steel, DT), 0.75 - 0.5, 1e-12);
+}
+
+TEST(Switch, NotWhereNothingChanges) {
+  EXPECT_EQ(weight_of_switch(lasting(0, 1), {9, 9, 10, 8, 10}, true, true, steel, DT), 0);
+  EXPECT_EQ(weight_of_switch(lasting(0, 1), {10, 12, 10, 10, 10}, false, false, steel, DT), 0);
+}
+
 // Coefficient of restitution of two discs of which the law is asked step by step, with so many steps a contact, the
 // worst of some moments in a step at which they may touch first, less exp(-pi h/sqrt(1 - h^2)).
 double worst_error_of_restitution(double h, int steps) {
@@ -257,6 +292,53 @@ TEST(ContactLaw, NormalImpactIsOfThirdOrder) {
     const double coarse = worst_error_of_restitution(h, 20), fine = worst_error_of_restitution(h, 40);
     EXPECT_LT(coarse, 1e-3) << h;
     EXPECT_GT(coarse / fine, 6) << h;
+  }
+}
+
+// What a disc has after it met a fixed one with this tangential over normal speed: velocities of centre and rim, over
+// the normal speed. It is so slow that the normal does not turn.
+std::vector<double> after_oblique_impact(double slip, int steps, double phase) {
+  const double radius = 1e-3, inertia = 0.5 * MASS * radius * radius, speed = 1e-5;
+  const double dt = M_PI * std::sqrt(MASS / KN) / steps;
+  const Pair<double> pair{2 * radius, 0, 2 * std::sqrt(MASS) * dashpot_in_steps(HN, KN * dt * dt / MASS, 1)};
+  Disc<double> a{}, b{};
+  a.x = 2 * radius + phase * speed * dt;
+  a.vx_half = a.vx = -speed;
+  a.vy_half = a.vy = slip * speed;
+  History<double> history{0, 0};
+  NoLosses none;
+  for (int step = 0; step < 1.2 * steps + 3; step++) {
+    const auto u = relative(a, b);
+    const auto f = contact_force<Law::direct, false>(u, distance_of(u), pair, steel, dt, history, none);
+    const double ax = f.fx / MASS, ay = f.fy / MASS, alpha = f.torque_a / inertia;
+    a.vx = (a.vx_half += dt * ax) + 0.5 * dt * ax;
+    a.vy = (a.vy_half += dt * ay) + 0.5 * dt * ay;
+    a.omega = (a.omega_half += dt * alpha) + 0.5 * dt * alpha;
+    a.x += dt * a.vx_half;
+    a.y += dt * a.vy_half;
+  }
+  return {a.vx_half / speed, a.vy_half / speed, a.omega_half * radius / speed};
+}
+
+double worst_error_of_oblique_impact(double slip, int steps) {
+  const auto exact = after_oblique_impact(slip, 5120, 0.5);
+  double worst = 0;
+  for (int phase = 0; phase < 32; phase++) {
+    const auto got = after_oblique_impact(slip, steps, (phase + 0.5) / 32);
+    for (std::size_t k = 0; k < got.size(); k++)
+      worst = std::max(worst, std::fabs(got[k] - exact[k]));
+  }
+  return worst;
+}
+
+// Friction with a tangential dashpot, which acts while the contact sticks: from one that does so nearly always to one
+// that slides at both ends.
+TEST(ContactLaw, ImpactsThatStickAndSlipAreOfSecondOrder) {
+  for (double slip : {2 * MU, 3 * MU, 5 * MU, 7 * MU}) {
+    // a sixteenth of the step: the factor of second order is 256, that of first order 16
+    const double coarse = worst_error_of_oblique_impact(slip, 20), fine = worst_error_of_oblique_impact(slip, 320);
+    EXPECT_LT(coarse, 2e-3) << slip;
+    EXPECT_GT(coarse / fine, 100) << slip;
   }
 }
 
