@@ -152,16 +152,16 @@ struct NoLosses {};
 // In a step with these velocities. The spring of a contact that slides is stretched to `trial`, and then gives way.
 template <class T>
 inline void book(Losses<T> &l, const Approach<T> &step, const Approach<T> &dashpot, T loss, T es_before, T trial, T es,
-                 const Material &m, double dt) {
+                 T part, const Material &m, double dt) {
   const T n = l.dashpot_n + dashpot.n, t = l.dashpot_t + dashpot.t;
   l.dashpots = fused(T(-0.5 * dt), fused(n, step.n, t * step.t), l.dashpots + loss);
   const double none = std::numeric_limits<double>::infinity(); // a division that depends on nothing leaves the loop
-  l.friction = fused(T(0.5 / (m.ks > 0 ? m.ks : none)) * (es_before + es), trial - es, l.friction);
+  l.friction = fused(T(0.5 / (m.ks > 0 ? m.ks : none)) * (es_before + es), trial - es, l.friction + part);
   l.dashpot_n = dashpot.n;
   l.dashpot_t = dashpot.t;
 }
 template <class T>
-inline void book(NoLosses &, const Approach<T> &, const Approach<T> &, T, T, T, T, const Material &, double) {}
+inline void book(NoLosses &, const Approach<T> &, const Approach<T> &, T, T, T, T, T, const Material &, double) {}
 
 // Of the centres of two discs. Root and division take so long that a loop had better begin with those of the next
 // pairs.
@@ -204,24 +204,32 @@ template <class T> struct Friction {
   T es_before, limit_before;
 };
 
-// What the tangential force of a pair lacks that closed in the step and sticks, or stuck until it opened and so let go
-// of a stretched spring and of a dashpot. The spring acted during f of the step, and changed uniformly; the time
-// integration gives it the mean of before and now for all of it. (Where a contact slides its spring is mu times the
-// normal one, and so is its impulse.)
+// The tangential spring of a contact that closed or opened in the step acted during f of it; the time integration gives
+// it the mean of before and now for all of it. If the contact closed and sticks, or stuck until it opened and so let go
+// of a stretched spring and of a dashpot, the difference is a force that is to be added now. If it slides, the spring
+// is mu times the normal one, and so is its impulse: then nothing is missing but that work in the books.
+template <class T> struct PartOfStep { T force, friction; }; // (N), (J)
+
 template <class T>
-[[gnu::always_inline]] inline T lacking(const Meeting<T> &c, const Presence<T> &share, const Pair<T> &pair,
-                                        const Friction<T> &f, const Material &m) {
+[[gnu::always_inline]] inline PartOfStep<T> part_of_step(const Meeting<T> &c, const Presence<T> &share,
+                                                         const Pair<T> &pair, const Friction<T> &f, const Material &m,
+                                                         double dt) {
   constexpr double FAR = 0.5; // from sliding, which sets in before the contact opens
   const auto touch = c.overlap > T(0), touched = c.before > T(0);
-  const auto closes = touch && !touched && magnitude(f.trial) < f.limit;
-  const auto opens = touched && !touch && magnitude(f.es_before) < T(FAR) * f.limit_before;
+  const auto closes = touch && !touched, opens = touched && !touch;
+  const auto closes_sticking = closes && magnitude(f.trial) < f.limit;
+  const auto opens_sticking = opens && magnitude(f.es_before) < T(FAR) * f.limit_before;
   const T spring = T(0.5) * fused(share.spring, f.es_before + f.trial, -(f.es_before + f.es));
   const T dashpot = T(-m.ds) * (pair.root_mass * share.dashpot_t) * c.now.t;
-  return select(closes, spring, select(opens, spring + dashpot, T(0)));
+  const T work = T(-0.5 * dt) * (T(1) - share.spring) * (f.es_before + f.es) * c.step.t;
+  const auto sticks = closes_sticking || opens_sticking;
+  return {select(closes_sticking, spring, select(opens_sticking, spring + dashpot, T(0))),
+          select((closes || opens) && !sticks, work, T(0))};
 }
 template <class T>
-inline T lacking(const Meeting<T> &, const Steady<T> &, const Pair<T> &, const Friction<T> &, const Material &) {
-  return T(0);
+inline PartOfStep<T> part_of_step(const Meeting<T> &, const Steady<T> &, const Pair<T> &, const Friction<T> &,
+                                  const Material &, double) {
+  return {T(0), T(0)};
 }
 
 // Of pairs some of which began or ceased to slide in the step: what their tangential dashpot counts beside its weight,
@@ -277,9 +285,10 @@ template <Law law, bool limit_damping, class T, class Share, class Books>
   // Dashpots that may not pull end before the discs part, and smoothly.
   const T impulse = limit_damping ? select(touch, share.impulse, T(0)) : share.impulse;
   const T loss = limit_damping ? select(touch, share.loss, T(0)) : share.loss;
-  book(books, c.step, {fn - en, ft - es}, loss, es_before, trial, es, m, dt);
+  const PartOfStep<T> part = part_of_step(c, share, pair, friction, m, dt);
+  book(books, c.step, {fn - en, ft - es}, loss, es_before, trial, es, part.friction, m, dt);
   fn += impulse;
-  ft += lacking(c, share, pair, friction, m);
+  ft += part.force;
   const T back = -ft;
   return {fused(fn, c.nx, back * c.ny), fused(fn, c.ny, ft * c.nx), back * c.lever_a, back * c.lever_b};
 }

@@ -51,25 +51,24 @@ private:
   double xx = 0, yy = 0, tt = 0, xy = 0, xt = 0, yt = 0;
 };
 
-class ContactNetwork {
+// A contact as one of its grains has it.
+struct Touch {
+  int other;        // the other grain, an own one or a ghost
+  double nx, ny;    // unit normal
+  double ox, oy;    // place, from the centre of the grain
+  double root_mass; // 2 sqrt(m) of the pair
+  const Material *material;
+};
+
+template <class Packing> class ContactNetwork {
 public:
-  // Room for so many contacts, each counted with both of its grains.
-  void reserve(std::size_t contacts) { links.reserve(contacts); }
-
-  // Own grains are added in turn, each followed by its contacts; a wall has inverses of 0.
-  void add_grain(double inverse_mass, double inverse_inertia) {
-    by_mass = std::sqrt(inverse_mass);
-    by_inertia = std::sqrt(inverse_inertia);
-    first.push_back(int(links.size()));
-    moves.push_back(inverse_mass > 0);
-  }
-
-  // A contact of the last grain with grain `other` (an own one or a ghost): unit normal (nx, ny), place (ox, oy) from
-  // the centre of the grain, and 2 sqrt(m) of the pair. The material must outlive the network.
-  void add_contact(int other, double nx, double ny, double ox, double oy, double root_mass, const Material &m) {
-    links.push_back({nx * by_mass, ny * by_mass, (ox * ny - oy * nx) * by_inertia, (ox * nx + oy * ny) * by_inertia,
-                     root_mass, &m, other});
-  }
+  // The packing is looked at again in every round, since its contacts, as they are needed here, would take more memory
+  // than the pairs do. It has
+  //
+  //   own()                       how many own grains
+  //   inverses(i)                 1/mass and 1/inertia of an own grain, 0 of a wall
+  //   for_each_touch(i, visit)    calls visit(Touch) for all its contacts
+  explicit ContactNetwork(const Packing &p) : packing(p) {}
 
   // A stable step, found from a first guess; stops before the best bound when it is `enough`. INFINITY without
   // contacts.
@@ -81,9 +80,9 @@ public:
   double step_limit(double step, double enough, std::vector<double> &weights, ToGhosts to_ghosts,
                     Largest largest) const {
     constexpr int ROUNDS = 10;
-    const int n = int(first.size());
+    const int n = packing.own();
     for (int i = 0; i < n; i++)
-      weights[i] = moves[i] ? 1 : 0;
+      weights[i] = moves(i) ? 1 : 0;
     std::vector<double> loads(n);
     double best = 0;
     for (int round = 0; round < ROUNDS && best < enough; round++) {
@@ -106,35 +105,26 @@ public:
 private:
   static constexpr double ALLOWED = 4;
 
-  // A contact as one of its grains has it: its normal, and how it moves along normal and tangent as the grain turns,
-  // over the roots of mass and inertia.
-  struct Link {
-    double x, y, turn_n, turn_t;
-    double root_mass;
-    const Material *material;
-    int other;
-  };
-
   static double load(double stiffness, double dashpot, double dt) { return (stiffness * dt + 2 * dashpot) * dt; }
 
-  int end(int i) const { return i + 1 < int(first.size()) ? first[i + 1] : int(links.size()); }
+  bool moves(int i) const { return packing.inverses(i).first > 0; }
 
   double load(int i, double dt, const std::vector<double> &weights) const {
+    if (!moves(i))
+      return 0;
+    const auto [inverse_mass, inverse_inertia] = packing.inverses(i);
+    const double by_mass = std::sqrt(inverse_mass), by_inertia = std::sqrt(inverse_inertia);
     Squares sum;
-    for (int k = first[i]; k < end(i); k++) {
-      const Link &l = links[k];
-      const Material &m = *l.material;
-      const double factor = moves[i] ? 1 + weights[l.other] / weights[i] : 0;
-      sum.add(factor * load(m.kn, m.dn * l.root_mass, dt), l.x, l.y, l.turn_n);
-      sum.add(factor * load(m.ks, m.ds * l.root_mass, dt), -l.y, l.x, l.turn_t);
-    }
+    packing.for_each_touch(i, [&, dt = dt](const Touch &t) {
+      const Material &m = *t.material;
+      const double factor = 1 + weights[t.other] / weights[i], x = t.nx * by_mass, y = t.ny * by_mass;
+      sum.add(factor * load(m.kn, m.dn * t.root_mass, dt), x, y, (t.ox * t.ny - t.oy * t.nx) * by_inertia);
+      sum.add(factor * load(m.ks, m.ds * t.root_mass, dt), -y, x, (t.ox * t.nx + t.oy * t.ny) * by_inertia);
+    });
     return sum.largest();
   }
 
-  double by_mass = 0, by_inertia = 0; // of the last grain
-  std::vector<int> first;             // of each own grain, into links
-  std::vector<bool> moves;            // of each own grain
-  std::vector<Link> links;
+  const Packing &packing;
 };
 
 } // namespace cdem

@@ -38,6 +38,11 @@ struct PairColumns {
   Ahead ahead{};
 };
 
+// On the first disc of a pair (N).
+struct PairForce {
+  double fx, fy;
+};
+
 class DiscPairs {
 public:
   // Pairs of the same two materials: begin ... end-1. Each segment begins with a group; what is left of its last one is
@@ -51,7 +56,7 @@ public:
   std::vector<int> first_segment;
   Column<double> en;                                       // of the incremental law only
   Column<double> friction, dashpots, dashpot_n, dashpot_t; // see Losses; empty unless there are books
-  Column<Forces<double>> force;                            // of the last step that was kept, see ForceSlots::of_pair
+  Column<PairForce> force;                                 // of the last step that was kept, see ForceSlots::of_pair
 
   // Rows of the two discs of pair k; a belongs to the grain of the lower id.
   int a(int k) const { return group(k).a[k % SIZE] / ROW; }
@@ -114,7 +119,7 @@ public:
   double bytes() const {
     return double(groups.capacity()) * sizeof(PairGroup) +
            double(en.capacity() + 4 * friction.capacity()) * sizeof(double) +
-           double(force.capacity()) * sizeof(Forces<double>);
+           double(force.capacity()) * sizeof(PairForce);
   }
 
 private:

@@ -105,8 +105,6 @@ public:
     }
   }
 
-  int summed() const { return total; } // slots of all discs: so many pairs, each counted with both
-
   // Calls visit(k) for every pair k of a disc.
   template <class Visit> void for_each(int row, Visit visit) const {
     const auto begin = pair_of_slot.begin() + first_pair[row];
@@ -122,8 +120,10 @@ public:
   }
 
   // The force on disc a of pair k, as long as the block of that pair is the last one that was computed.
-  Forces<double> of_pair(const DiscPairs &pairs, int k) const {
-    return pairs.slot_a(k) != unsummed() ? slots[pairs.slot_a(k)] : opposite(slots[pairs.slot_b(k)]);
+  PairForce of_pair(const DiscPairs &pairs, int k) const {
+    const bool a_is_summed = pairs.slot_a(k) != unsummed();
+    const Forces<double> &f = slots[a_is_summed ? pairs.slot_a(k) : pairs.slot_b(k)];
+    return a_is_summed ? PairForce{f.fx, f.fy} : PairForce{-f.fx, -f.fy};
   }
 
   // The last row that pairs of the blocks up to k read, but for ghosts.

@@ -11,28 +11,44 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 using namespace LAMMPS_NS;
 
-double ContactLimit::find(double enough) {
-  const auto *const pair = static_cast<PairCDEM *>(force->pair);
-  const GrainRows &rows = pair->rows;
-  cdem::ContactNetwork network;
-  network.reserve(pair->most_touching());
-  for (int i = 0; i < atom->nlocal; i++) {
-    const auto [inverse_mass, inverse_inertia] = integrate->inverse(i);
-    network.add_grain(inverse_mass, inverse_inertia);
+namespace {
+
+// The contacts of the last forces, as core/contact_network.h asks for them.
+struct Packing {
+  const PairCDEM &pair;
+  const FixCDEMIntegrate &integrate;
+  const Atom &atom;
+
+  int own() const { return atom.nlocal; }
+
+  std::pair<double, double> inverses(int i) const {
+    const auto [mass, inertia] = integrate.inverse(i);
+    return {mass, inertia};
+  }
+
+  template <class Visit> void for_each_touch(int i, Visit visit) const {
+    const GrainRows &rows = pair.rows;
     const cdem::Disc<double> &centre = rows.of_grain(i);
     for (int own = rows.rows_of(i); own < rows.rows_of(i + 1); own++)
-      pair->for_each_touching(own, [&](int other, double root_mass) {
-        const double dx = rows[own].x - rows[other].x, dy = rows[own].y - rows[other].y, distance = std::hypot(dx, dy);
+      pair.for_each_touching(own, [&, i, own](int other, double root_mass) {
+        const double dx = rows[own].x - rows[other].x, dy = rows[own].y - rows[other].y;
+        const double distance = std::sqrt(dx * dx + dy * dy), nx = dx / distance, ny = dy / distance;
         const double lever = 0.5 * (distance + rows.radius(own) - rows.radius(other));
-        const double nx = dx / distance, ny = dy / distance;
         const int j = rows.grain(other);
-        network.add_contact(j, nx, ny, rows[own].x - lever * nx - centre.x, rows[own].y - lever * ny - centre.y,
-                            root_mass, pair->material(atom->type[i], atom->type[j]));
+        visit(cdem::Touch{j, nx, ny, rows[own].x - lever * nx - centre.x, rows[own].y - lever * ny - centre.y,
+                          root_mass, &pair.material(atom.type[i], atom.type[j])});
       });
   }
+};
+
+} // namespace
+
+double ContactLimit::find(double enough) {
+  const auto *const pair = static_cast<PairCDEM *>(force->pair);
   weights.resize(atom->nlocal + atom->nghost);
   auto to_ghosts = [this] { Shearbox::forward_comm(lmp, integrate); };
   auto largest = [this](double x) {
@@ -40,7 +56,8 @@ double ContactLimit::find(double enough) {
     MPI_Allreduce(&x, &most, 1, MPI_DOUBLE, MPI_MAX, world);
     return most;
   };
-  return network.step_limit(integrate->compute_scalar(), enough, weights, to_ghosts, largest);
+  const Packing packing{*pair, *integrate, *atom};
+  return cdem::ContactNetwork(packing).step_limit(integrate->compute_scalar(), enough, weights, to_ghosts, largest);
 }
 
 int ContactLimit::pack(int n, const int *list, double *buf) const {

@@ -468,8 +468,8 @@ void PairCDEM::tally() {
     const int i = rows.grain(pairs.a(k)), j = rows.grain(pairs.b(k));
     const double *const xi = atom->x[i], *const xj = atom->x[j];
     const auto [normal, tangential] = eflag_either ? spring_energy(k, m) : SpringEnergy{0, 0};
-    const cdem::Forces<double> &on_a = pairs.force[k];
-    ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, normal + tangential, 0, on_a.fx, on_a.fy, 0, xi[0] - xj[0],
+    const auto [fx, fy] = pairs.force[k];
+    ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, normal + tangential, 0, fx, fy, 0, xi[0] - xj[0],
                  xi[1] - xj[1], 0);
   });
 }
@@ -484,8 +484,8 @@ bool PairCDEM::counts(int k) const { return rows.grain(pairs.a(k)) < block_start
 
 // Also in the step after it opened, in which its forces may have a share left.
 bool PairCDEM::acts(int k) const {
-  const cdem::Forces<double> &on_a = pairs.force[k];
-  return overlap(k) > 0 || on_a.fx != 0 || on_a.fy != 0;
+  const auto [fx, fy] = pairs.force[k];
+  return overlap(k) > 0 || fx != 0 || fy != 0;
 }
 
 PairCDEM::SpringEnergy PairCDEM::spring_energy(int k, const cdem::Material &m) const {
@@ -547,7 +547,7 @@ void PairCDEM::book_losses() {
 PairCDEM::Contact PairCDEM::contact(int k) const {
   const int p = pairs.a(k), q = pairs.b(k);
   const double dx = rows[p].x - rows[q].x, dy = rows[p].y - rows[q].y, distance = std::hypot(dx, dy);
-  const auto [fx, fy, torque_a, torque_b] = pairs.force[k];
+  const auto [fx, fy] = pairs.force[k];
 
   Contact c;
   c.tag_a = atom->tag[rows.grain(p)];

@@ -82,7 +82,6 @@ public:
         visit(pairs.a(k) == row ? pairs.b(k) : pairs.a(k), pairs.constants(k).root_mass);
     });
   }
-  int most_touching() const { return slots.summed(); } // so often at most is visit called for all discs
   struct SpringEnergy {
     double normal, tangential; // J
   };

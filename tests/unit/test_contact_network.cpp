@@ -35,23 +35,22 @@ struct Packing {
     const double a = grains[c.a].mass, b = grains[c.b].mass;
     return 2 * std::sqrt(b == 0 ? a : a == 0 ? b : a * b / (a + b));
   }
-  ContactNetwork network() const {
-    ContactNetwork net;
-    for (int i = 0; i < int(grains.size()); i++) {
-      const Grain &g = grains[i];
-      net.add_grain(g.mass > 0 ? 1 / g.mass : 0, g.mass > 0 ? 1 / g.inertia : 0);
-      for (const Contact &c : contacts) {
-        if (c.a == i)
-          net.add_contact(c.b, c.nx, c.ny, c.ax, c.ay, root_mass(c), material);
-        if (c.b == i)
-          net.add_contact(c.a, -c.nx, -c.ny, c.bx, c.by, root_mass(c), material);
-      }
+  int own() const { return int(grains.size()); }
+  std::pair<double, double> inverses(int i) const {
+    const Grain &g = grains[i];
+    return g.mass > 0 ? std::pair(1 / g.mass, 1 / g.inertia) : std::pair(0., 0.);
+  }
+  template <class Visit> void for_each_touch(int i, Visit visit) const {
+    for (const Contact &c : contacts) {
+      if (c.a == i)
+        visit(Touch{c.b, c.nx, c.ny, c.ax, c.ay, root_mass(c), &material});
+      if (c.b == i)
+        visit(Touch{c.a, -c.nx, -c.ny, c.bx, c.by, root_mass(c), &material});
     }
-    return net;
   }
   double limit(double enough = INFINITY) const {
     std::vector<double> weights(grains.size());
-    return network().step_limit(
+    return ContactNetwork(*this).step_limit(
         1e-6, enough, weights, [] {}, [](double x) { return x; });
   }
 
