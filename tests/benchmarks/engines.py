@@ -8,6 +8,7 @@ import platform
 import re
 import shutil
 import subprocess
+import sys
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -15,18 +16,14 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
+sys.path.append(str(ROOT / "tests" / "decks"))
+from engine import TO_MEASURE  # noqa: E402
+
 CDEM, STOCK, LIGGGHTS = "cdem", "LAMMPS", "LIGGGHTS"
 PROGRAMS = {CDEM: str(ROOT / "build" / "lmp_cdem"), STOCK: "lmp", LIGGGHTS: "liggghts"}
 PACKAGES = {CDEM: "tools/setup", STOCK: "apt-get install lammps", LIGGGHTS: "apt-get install liggghts"}
 VERSIONS = {CDEM: r"Shearbox (.*)", STOCK: r"LAMMPS \((.*)\)", LIGGGHTS: r"LIGGGHTS-PUBLIC ([^,]*)"}
 PHASES = ("pair", "neigh", "comm", "output", "modify", "other")
-
-ENVIRONMENT = os.environ | {
-    "OMP_NUM_THREADS": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-    "OMPI_MCA_ess_singleton_isolated": "1",  # no daemon for a single rank
-}
 
 
 class EngineError(RuntimeError):
@@ -104,7 +101,7 @@ def machine() -> dict[str, str]:
 def ask(engine: str, deck: str) -> tuple[int, str]:
     """Exit status and output of some lines of a deck."""
     words = [PROGRAMS[engine], "-log", "none"]
-    done = subprocess.run(words, input=deck, env=ENVIRONMENT, capture_output=True, text=True, check=False)
+    done = subprocess.run(words, input=deck, env=TO_MEASURE, capture_output=True, text=True, check=False)
     return done.returncode, done.stdout
 
 
@@ -138,7 +135,7 @@ def wait(words: list[str], folder: Path) -> tuple[int, Usage]:
     begin = time.monotonic()
     with (folder / "output").open("w") as output:
         process = subprocess.Popen(
-            words, cwd=folder, env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT
+            words, cwd=folder, env=TO_MEASURE, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT
         )
         try:
             _, status, usage = os.wait4(process.pid, 0)

@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 from cases import FULL_TEST, Shear
-from engines import CDEM, ENVIRONMENT, PROGRAMS, ROOT, EngineError
+from engines import CDEM, PROGRAMS, ROOT, TO_MEASURE, EngineError
 
 sys.path.insert(0, str(ROOT / "tools"))
 from shearbox_tools.presets import SPEEDS  # noqa: E402
@@ -101,7 +101,7 @@ def measure(setting: Setting, seed: int, work: Path, keep: Callable[[subprocess.
     program = [ROOT / "tools" / "shearbox", "run", MODEL, f"--out={folder}", f"--engine={PROGRAMS[CDEM]}", "--jobs=1"]
     words = [*map(str, program), f"--seed={seed}", *setting.options, "--stress", *map(str, STRESSES)]
     process = subprocess.Popen(
-        words, env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True
+        words, env=TO_MEASURE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True
     )
     keep(process)
     _, message = process.communicate()

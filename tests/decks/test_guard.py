@@ -125,6 +125,71 @@ def test_what_is_no_number_is_found(tmp_path: Path) -> None:
     assert re.search(r"at step \d+ atom 3 has a position, velocity or force that is not a finite number", output)
 
 
+# A grain is spoilt between two steps. LAMMPS refuses 0/0 in a formula, but not inf - inf.
+SPOIL = """
+include ${decks}/start.in
+group one id 2
+fix move grains cdem/integrate
+variable infinite atom 1e308*10
+variable none atom v_infinite-v_infinite
+timestep ${dt}
+run 20000 pre no every 12000 "${spoil}"
+"""
+
+
+@pytest.mark.parametrize(("style", "ranks"), [("verlet", 1), ("verlet/cdem", 2)])
+@pytest.mark.parametrize(
+    ("spoil", "pace"),
+    [
+        ("velocity one set v_none NULL NULL", 0),
+        ("velocity one set v_none NULL NULL", 10),
+        ("velocity one set v_infinite NULL NULL", 0),
+        ("set group one x v_none", 0),
+        ("set group one x v_none", 10),
+        ("set group one y v_infinite", 0),
+        ("fix_modify move gravity 1e308 0", 0),
+    ],
+)
+def test_what_is_no_number_amid_a_run_is_found(tmp_path: Path, spoil: str, pace: float, style: str, ranks: int) -> None:
+    """On the next rebuild, if another grain is fast enough to bring one about; else in the next hundredth step, or with
+    verlet/cdem when the next copy of the state is due. The copy that is left is sound."""
+    speed, dt = 0.1, 2e-7
+    discs = [Disc(0.01, 0.01, type=2), Disc(-0.01, 0, vx=speed), Disc(0.01, -0.01, vy=pace)]
+    write_data(tmp_path / "discs.data", discs, (-0.02, 0.02, -0.02, 0.02))
+    options = {"style": style, "by": "p", "skin": 2e-4}
+    status, output = start(SPOIL, tmp_path, ranks=ranks, dt=dt, spoil=spoil, **options)
+    assert status != 0 and "is no faster than verlet" not in output, output[-1500:]
+    said = re.search(r"at step (\d+) atom (\d) has a position, velocity or force that is not a finite number", output)
+    assert said, output[-1500:]
+    assert 12000 < int(said[1]) <= (12100 if pace or style == "verlet" else 15000)
+    assert said[2] == "2" or "gravity" in spoil
+    assert "The state of step 5000 is in rescue.restart" in output
+    deck = BEGIN + "fix move grains cdem/integrate\ninclude ${decks}/end.in\n"
+    status, output = start(deck, tmp_path, part="on", **{"from": "rescue.restart"}, **options)
+    assert status == 0, output[-1500:]
+    (state,) = read_dump(tmp_path / "end.dump")
+    assert state.step == 5000
+    assert state["x"] == pytest.approx([0.01, -0.01 + 5000 * dt * speed, 0.01], rel=1e-9)
+    assert list(state["vx"]) == [0, speed, 0] and list(state["vy"]) == [0, 0, pace]
+
+
+@pytest.mark.parametrize(("style", "ranks"), [("verlet", 2), ("verlet/cdem", 1)])
+def test_a_force_that_is_no_number_is_found(tmp_path: Path, law: str, style: str, ranks: int) -> None:
+    """Two grains that hardly repel are in one place after 60 steps, where a contact has no normal. They meet exactly,
+    as dt is a power of two; and the skin is so large that no list is drawn in that step, which would be refused."""
+    dt, speed = 2**-22, 1
+    discs = [Disc(-60 * speed * dt, 0.01, vx=speed), Disc(60 * speed * dt, 0.01, vx=-speed), Disc(0.01, -0.01)]
+    write_data(tmp_path / "discs.data", discs, (-0.02, 0.02, -0.02, 0.02))
+    deck = "include ${decks}/start.in\nfix move grains cdem/integrate\ntimestep ${dt}\nrun 6000\n"
+    status, output = start(deck, tmp_path, ranks=ranks, style=style, law=law, dt=dt, skin=0.01, kn=1e-30, ks=1e-30)
+    assert status != 0, output[-1500:]
+    said = re.search(r"at step (\d+) atom [12] has a position, velocity or force that is not a finite number", output)
+    assert said, output[-1500:]
+    assert 60 <= int(said[1]) <= (100 if style == "verlet" else 5000)
+    assert "The state of step 0 is in rescue.restart" in output
+    assert (tmp_path / "rescue.restart").exists()
+
+
 WARNING = r"at step (\d+) the time step \S+ is beyond the stability limit (\S+) of the contacts"
 
 
