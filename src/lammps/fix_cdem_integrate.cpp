@@ -25,7 +25,7 @@ using namespace LAMMPS_NS;
 namespace {
 constexpr double SAFE_FRACTION = 0.9;
 constexpr double UNKNOWN = NAN;
-constexpr int CHECK_EVERY = 100, KEEP_EVERY = 5000; // steps
+constexpr int KEEP_EVERY = 5000; // steps
 } // namespace
 
 FixCDEMIntegrate *FixCDEMIntegrate::find(LAMMPS *lmp) { return Shearbox::find_fix<FixCDEMIntegrate>(lmp); }
@@ -286,7 +286,7 @@ void FixCDEMIntegrate::end_of_step() {
 }
 
 void FixCDEMIntegrate::initial_integrate(int) {
-  if (update->ntimestep % CHECK_EVERY == 0)
+  if (guard.is_due())
     guard.check();
   for (int i : to_start)
     take_acceleration(i);

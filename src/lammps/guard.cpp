@@ -17,6 +17,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 constexpr double LARGEST_SHARE = 0.1; // of the smallest radius, in one step
+constexpr int EVERY = 100;            // steps
 constexpr bigint MOST_ATOMS = 100000; // on a rank, to be copied unasked
 
 // A value, and the rank that has it.
@@ -33,6 +34,8 @@ void Guard::begin(double smallest_radius) {
   rescue.clear();
   keep();
 }
+
+bool Guard::is_due() const { return update->ntimestep % EVERY == 0; }
 
 // Of the centre in a step; INFINITY if anything about the grain is not a number.
 double Guard::moved(int i) const {

@@ -29,6 +29,8 @@ public:
   void begin(double smallest_radius);
   // Whether a grain that moved so far in a step (m), or an unknown distance, is to be looked for.
   bool suspects(double moved) const { return !(moved <= allowed); }
+  // Whether this is a step in which grains are to be looked at, whatever is suspected: what is no number has no speed.
+  bool is_due() const;
   // Looks at all grains; all ranks together. Ends the run if one is too fast or nowhere.
   void check();
   // Before LAMMPS deletes what is outside of the box, which is an error unless thermo_modify has it otherwise.

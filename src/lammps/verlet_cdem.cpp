@@ -194,8 +194,9 @@ void VerletCDEM::measure_room() {
 
 // The list is good for the next step as long as the room left in it is more than SAFETY times what the fastest moved in
 // the last one; and it is not worth keeping for LEAST of half the skin. What all have travelled is at most what the
-// fastest has in every step, so only when that bound is used up is the room measured. That changes nothing: the list is
-// rebuilt in the same step for any number of ranks, and whatever is written in between.
+// fastest has in every step, so only when that bound is used up is the room measured; and from time to time, since it
+// is none if a position is no number. That changes nothing: the list is rebuilt in the same step for any number of
+// ranks, and whatever is written in between.
 bool VerletCDEM::rebuild_is_due(int steps, const cdem::Fastest &fastest) {
   constexpr double SAFETY = 4, LEAST = 0.05;
   const double mine[] = {fastest.vx2, fastest.vy2, fastest.omega2, reach};
@@ -209,7 +210,7 @@ bool VerletCDEM::rebuild_is_due(int steps, const cdem::Fastest &fastest) {
   }
   travelled += steps * stride;
   const double needed = std::max(SAFETY * stride, LEAST * 0.5 * neighbor->skin);
-  if (travelled + needed < room)
+  if (travelled + needed < room && !integrate->guard.is_due())
     return false;
   measure_room();
   travelled = 0;
