@@ -141,6 +141,13 @@ inline double dashpot_in_steps(double h, double kdt2_over_m, double w) {
   return 1 / (1 + w * std::max(0.0, (11 - 20 * h * h) / 24) * kdt2_over_m);
 }
 
+// The tangential spring of a pair in this step and before it, what it would be without friction's limit, and that
+// limit.
+template <class T> struct Friction {
+  T es, trial, limit;
+  T es_before, limit_before;
+};
+
 // What the friction and the dashpots of a pair have taken out (J), if somebody keeps books. The time integration gives
 // the bodies the mean of the forces at the two ends of each step times its displacement as work, and so do the books.
 template <class T> struct Losses {
@@ -149,19 +156,22 @@ template <class T> struct Losses {
 };
 struct NoLosses {};
 
-// In a step with these velocities. The spring of a contact that slides is stretched to `trial`, and then gives way.
+// In a step with these velocities, with what is beside that mean. The spring of a contact that slides is stretched to
+// `trial`, and then gives way.
 template <class T>
-inline void book(Losses<T> &l, const Approach<T> &step, const Approach<T> &dashpot, T loss, T es_before, T trial, T es,
-                 T part, const Material &m, double dt) {
+inline void book(Losses<T> &l, const Approach<T> &step, const Approach<T> &dashpot, const Friction<T> &f,
+                 T beside_dashpots, T beside_friction, const Material &m, double dt) {
   const T n = l.dashpot_n + dashpot.n, t = l.dashpot_t + dashpot.t;
-  l.dashpots = fused(T(-0.5 * dt), fused(n, step.n, t * step.t), l.dashpots + loss);
+  l.dashpots = fused(T(-0.5 * dt), fused(n, step.n, t * step.t), l.dashpots + beside_dashpots);
   const double none = std::numeric_limits<double>::infinity(); // a division that depends on nothing leaves the loop
-  l.friction = fused(T(0.5 / (m.ks > 0 ? m.ks : none)) * (es_before + es), trial - es, l.friction + part);
+  const double half = 0.5 / (m.ks > 0 ? m.ks : none);
+  l.friction = fused(T(half) * (f.es_before + f.es), f.trial - f.es, l.friction + beside_friction);
   l.dashpot_n = dashpot.n;
   l.dashpot_t = dashpot.t;
 }
 template <class T>
-inline void book(NoLosses &, const Approach<T> &, const Approach<T> &, T, T, T, T, T, const Material &, double) {}
+inline void book(NoLosses &, const Approach<T> &, const Approach<T> &, const Friction<T> &, T, T, const Material &,
+                 double) {}
 
 // Of the centres of two discs. Root and division take so long that a loop had better begin with those of the next
 // pairs.
@@ -196,13 +206,6 @@ template <class T>
   c.before = fused(c.step.n, T(dt), c.overlap);
   return c;
 }
-
-// The tangential spring of a pair in this step and before it, what it would be without friction's limit, and that
-// limit.
-template <class T> struct Friction {
-  T es, trial, limit;
-  T es_before, limit_before;
-};
 
 // The tangential spring of a contact that closed or opened in the step acted during f of it; the time integration gives
 // it the mean of before and now for all of it. If the contact closed and sticks, or stuck until it opened and so let go
@@ -266,7 +269,8 @@ template <Law law, bool limit_damping, class T, class Share, class Books>
     history.en = en;
   }
 
-  // Apart, the limit is 0, which clears the history.
+  // Apart, the limit is 0, which clears the history. Without time a contact at the limit stays there: neither is
+  // marked.
   const T limit = unmarked(T(m.mu) * (law == Law::direct ? en : select(en > T(0), en, T(0))));
   const T es_before = history.es, trial = unmarked(fused(T(-m.ks * dt) * c.step.t, share.spring, es_before));
   const auto stuck = is_marked(history.es), sticks = magnitude(trial) < limit;
@@ -286,7 +290,7 @@ template <Law law, bool limit_damping, class T, class Share, class Books>
   const T impulse = limit_damping ? select(touch, share.impulse, T(0)) : share.impulse;
   const T loss = limit_damping ? select(touch, share.loss, T(0)) : share.loss;
   const PartOfStep<T> part = part_of_step(c, share, pair, friction, m, dt);
-  book(books, c.step, {fn - en, ft - es}, loss, es_before, trial, es, part.friction, m, dt);
+  book(books, c.step, {fn - en, ft - es}, friction, loss, part.friction, m, dt);
   fn += impulse;
   ft += part.force;
   const T back = -ft;

@@ -366,7 +366,8 @@ void PairCDEM::choose_skin() {
   double touching = 0, near = 0;
   list_skin = largest;
   for_each_candidate([&](int p, int q) { (gap(p, q) < 0 ? touching : near) += 1; });
-  const double cheapest = cdem::cheapest_skin(touching, near / largest, list_speed < 0 ? step : list_speed);
+  const double cheapest =
+      cdem::cheapest_skin(rows.rows_of(atom->nlocal), touching, near / largest, list_speed < 0 ? step : list_speed);
   list_skin = std::min(std::max({cheapest, LEAST * largest, SAFETY * step}), largest);
 }
 
