@@ -76,7 +76,7 @@ def shearing(folder: Path, request: Request, sigma: float) -> list[Phase]:
     """Consolidation and shear at one stress (kPa)."""
     place = stress_folder(folder, sigma)
     common = {**_common(request), "sigma": f"{sigma:g}"}
-    packed = str((folder / PACKED / "packed.restart").resolve())
+    packed = os.path.relpath(folder / PACKED / "packed.restart", place)  # no blank, whatever the folder's name
     shear = {"speed": f"{request.speed:g}", "travel": f"{request.travel:g}"}
     return [
         Phase("consolidate", place, {**common, "packed": packed}, "consolidated.csv", sigma),
