@@ -126,8 +126,8 @@ public:
     return a_is_summed ? PairForce{f.fx, f.fy} : PairForce{-f.fx, -f.fy};
   }
 
-  // The last row that pairs of the blocks up to k read, but for ghosts.
-  int last_read(int k) const { return last_read_row[k]; }
+  // The end of the rows that pairs of the blocks up to k read, but for ghosts.
+  int read_end(int k) const { return read_ends[k]; }
 
   int blocks() const { return int(first_run.size()) - 1; }
   SlotBlock block(int k) const {
@@ -193,20 +193,20 @@ private:
   void assign_slots(const DiscPairs &pairs, const std::vector<int> &starts) {
     const int blocks = int(starts.size()) - 1;
     std::vector<int> end(blocks + 1, 0); // slots before the end of a block
-    last_read_row.assign(blocks, 0);
+    read_ends.assign(blocks, 0);
     for (int k = 0; k < blocks; k++) {
       end[k + 1] = end[k];
       for (int row = starts[k]; row < starts[k + 1]; row++)
         end[k + 1] += counts[row];
-      last_read_row[k] = std::max(starts[k + 1] - 1, k ? last_read_row[k - 1] : 0);
+      read_ends[k] = std::max(starts[k + 1], k ? read_ends[k - 1] : 0);
       for (int s = pairs.first_segment[k]; s < pairs.first_segment[k + 1]; s++)
         for (int p = pairs.segments[s].begin; p < pairs.segments[s].end; p++)
           if (const int row = std::max(pairs.a(p), pairs.b(p)); row < starts.back())
-            last_read_row[k] = std::max(last_read_row[k], row);
+            read_ends[k] = std::max(read_ends[k], row + 1);
     }
     int in_use = 0, largest = 0;
     for (int k = 0; k < blocks; k++) {
-      in_use = std::max(in_use, end[block_of(starts, last_read_row[k]) + 1] - end[k]);
+      in_use = std::max(in_use, end[block_of(starts, read_ends[k] - 1) + 1] - end[k]);
       largest = std::max(largest, end[k + 1] - end[k]);
     }
     const int room = std::min(total, in_use + largest); // a block that does not fit at the end begins anew
@@ -230,7 +230,7 @@ private:
   std::vector<int> first_slot, first_pair, counts; // of each disc: its first slot, and its pairs in order
   std::vector<int> pair_of_slot;
   std::vector<SlotRun> runs;
-  std::vector<int> first_run, first_wall_run, block_slot, last_read_row; // of each block
+  std::vector<int> first_run, first_wall_run, block_slot, read_ends; // of each block
 };
 
 } // namespace cdem

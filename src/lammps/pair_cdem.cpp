@@ -229,7 +229,7 @@ void PairCDEM::pair_forces(int block) {
   history_in_list = true;
   const double dt = update->setupflag ? 0 : update->dt;
   cdem::PairColumns columns = pairs.columns(slots.data());
-  columns.ahead = {rows.discs() + slots.last_read(block), rows.body(block_starts[block])};
+  columns.ahead = {rows.discs() + slots.read_end(block), rows.body(block_starts[block])};
   for (int k = pairs.first_segment[block]; k < pairs.first_segment[block + 1]; k++) {
     const auto &segment = pairs.segments[k];
     kernels.forces(rows.discs(), columns, segment.material, segment.begin, segment.end, dt);
