@@ -66,7 +66,7 @@ public:
   // than the pairs do. It has
   //
   //   own()                       how many own grains
-  //   inverses(i)                 1/mass and 1/inertia of an own grain, 0 of a wall
+  //   inverse(i)                  of an own grain: its .mass and .inertia, 0 of a wall
   //   for_each_touch(i, visit)    calls visit(Touch) for all its contacts
   explicit ContactNetwork(const Packing &p) : packing(p) {}
 
@@ -82,7 +82,7 @@ public:
     constexpr int ROUNDS = 10;
     const int n = packing.own();
     for (int i = 0; i < n; i++)
-      weights[i] = moves(i) ? 1 : 0;
+      weights[i] = packing.inverse(i).mass > 0 ? 1 : 0;
     std::vector<double> loads(n);
     double best = 0;
     for (int round = 0; round < ROUNDS && best < enough; round++) {
@@ -107,15 +107,13 @@ private:
 
   static double load(double stiffness, double dashpot, double dt) { return (stiffness * dt + 2 * dashpot) * dt; }
 
-  bool moves(int i) const { return packing.inverses(i).first > 0; }
-
   double load(int i, double dt, const std::vector<double> &weights) const {
-    if (!moves(i))
+    const auto inverse = packing.inverse(i);
+    if (inverse.mass == 0)
       return 0;
-    const auto [inverse_mass, inverse_inertia] = packing.inverses(i);
-    const double by_mass = std::sqrt(inverse_mass), by_inertia = std::sqrt(inverse_inertia);
+    const double by_mass = std::sqrt(inverse.mass), by_inertia = std::sqrt(inverse.inertia);
     Squares sum;
-    packing.for_each_touch(i, [&, dt = dt](const Touch &t) {
+    packing.for_each_touch(i, [&](const Touch &t) {
       const Material &m = *t.material;
       const double factor = 1 + weights[t.other] / weights[i], x = t.nx * by_mass, y = t.ny * by_mass;
       sum.add(factor * load(m.kn, m.dn * t.root_mass, dt), x, y, (t.ox * t.ny - t.oy * t.nx) * by_inertia);

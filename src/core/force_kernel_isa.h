@@ -29,8 +29,9 @@ template <class T> void store_losses(const PairColumns &p, int k, const Losses<T
   store(p.dashpot_t + k, l.dashpot_t);
 }
 
+constexpr int LINE = 64; // of the cache, bytes
+
 template <int lines> [[gnu::always_inline]] inline const void *prefetch(const void *memory) {
-  constexpr int LINE = 64;
   const char *const begin = static_cast<const char *>(memory);
   for (int l = 0; l < lines; l++)
     __builtin_prefetch(begin + LINE * l);
@@ -41,7 +42,7 @@ template <int lines> [[gnu::always_inline]] inline const void *prefetch(const vo
 // the second cache waits for memory.
 [[gnu::always_inline]] inline void prefetch(const PairGroup *group, Ahead &ahead) {
   constexpr int GROUPS = 8;
-  prefetch<sizeof(PairGroup) / 64>(group + GROUPS);
+  prefetch<sizeof(PairGroup) / LINE>(group + GROUPS);
   ahead.rows = prefetch<4>(ahead.rows); // three grains have some eight pairs
   ahead.bodies = prefetch<2>(ahead.bodies);
 }

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 using namespace LAMMPS_NS;
 
@@ -25,16 +24,13 @@ struct Packing {
 
   int own() const { return atom.nlocal; }
 
-  std::pair<double, double> inverses(int i) const {
-    const auto [mass, inertia] = integrate.inverse(i);
-    return {mass, inertia};
-  }
+  FixCDEMIntegrate::Inverse inverse(int i) const { return integrate.inverse(i); }
 
   template <class Visit> void for_each_touch(int i, Visit visit) const {
     const GrainRows &rows = pair.rows;
     const cdem::Disc<double> &centre = rows.of_grain(i);
     for (int own = rows.rows_of(i); own < rows.rows_of(i + 1); own++)
-      pair.for_each_touching(own, [&, i, own](int other, double root_mass) {
+      pair.for_each_touching(own, [&](int other, double root_mass) {
         const double dx = rows[own].x - rows[other].x, dy = rows[own].y - rows[other].y;
         const double distance = std::sqrt(dx * dx + dy * dy), nx = dx / distance, ny = dy / distance;
         const double lever = 0.5 * (distance + rows.radius(own) - rows.radius(other));

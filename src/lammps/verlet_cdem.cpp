@@ -210,7 +210,8 @@ bool VerletCDEM::rebuild_is_due(int steps, const cdem::Fastest &fastest) {
   }
   travelled += steps * stride;
   const double needed = std::max(SAFETY * stride, LEAST * 0.5 * neighbor->skin);
-  if (travelled + needed < room && !integrate->guard.is_due())
+  const bool just_measured = steps == 0;
+  if (travelled + needed < room && (just_measured || !integrate->guard.is_due()))
     return false;
   measure_room();
   travelled = 0;

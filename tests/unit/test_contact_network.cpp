@@ -36,9 +36,9 @@ struct Packing {
     return 2 * std::sqrt(b == 0 ? a : a == 0 ? b : a * b / (a + b));
   }
   int own() const { return int(grains.size()); }
-  std::pair<double, double> inverses(int i) const {
+  Grain inverse(int i) const {
     const Grain &g = grains[i];
-    return g.mass > 0 ? std::pair(1 / g.mass, 1 / g.inertia) : std::pair(0., 0.);
+    return g.mass > 0 ? Grain{1 / g.mass, 1 / g.inertia} : g;
   }
   template <class Visit> void for_each_touch(int i, Visit visit) const {
     for (const Contact &c : contacts) {
