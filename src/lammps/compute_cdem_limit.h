@@ -11,12 +11,7 @@
 //   compute limit all cdem/limit
 //   thermo_style custom step dt c_limit
 //
-// or to take a larger step than that of the worst packing, for grains that have settled. It is not stable if they come
-// to lie denser, of which fix cdem/integrate warns; a run that goes on from a restart file should keep its step.
-//
-//   fix move grains cdem/integrate dt any
-//   run 0
-//   timestep $(0.9*c_limit)
+// fix cdem/integrate dt contacts takes 0.8 of it as a run begins.
 //
 // Scalar: the limit (s), the same bits for any number of ranks. Source: core/contact_network.h.
 #pragma once

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// fix ID group cdem/integrate [dt check|any|auto [MAX]] [gravity GX GY] [drag T|none] [rescue FILE|none]
+// fix ID group cdem/integrate [dt check|any|auto [MAX]|contacts [MAX]] [gravity GX GY] [drag T|none] [rescue FILE|none]
 // fix_modify ID gravity GX GY
 // fix_modify ID drag T|none
 //
@@ -9,6 +9,11 @@
 //   dt check     refuse a time step beyond the stability limit of the scene (default)
 //   dt any       run with any time step
 //   dt auto MAX  set the time step to the smaller of 0.9 x limit and MAX (s, default: no maximum)
+//   dt contacts MAX
+//                set it to the smaller of MAX and 0.8 x the limit of the contacts there are (compute cdem/limit), for
+//                a packing that is at rest and will not become much denser; without any contact, that of dt auto.
+//                Chosen as the first run begins, and kept from then on: a fix with the same ID that goes on from a
+//                restart file has the same step
 //   gravity      acceleration of the grains (m/s^2, default 0 0)
 //   drag         of a medium at rest: force -m v/T on each grain, T > 0 (s, default: none); v is the half step's
 //   rescue       restart file to write when the run fails (default: rescue.restart in the current folder; none beyond
@@ -106,7 +111,7 @@ public:
   Guard guard;
 
 private:
-  enum class Step { check, any, automatic };
+  enum class Step { check, any, automatic, contacts };
 
   template <class Value> double scene_minimum(Value) const;
   void refuse_second_integrator() const;
@@ -115,6 +120,10 @@ private:
   int parse_body_force(int narg, char **arg);
   double number(const char *keyword, int narg, char **arg, int &iarg) const;
   void apply_step_rule();
+  bool chooses_step() const { return rule == Step::automatic || rule == Step::contacts; }
+  double at_most_max(double step) const;
+  void set_step(double step);
+  void choose_kept_step();
   double smallest_disc() const;
   void compare_with_contacts();
   void take_acceleration(int i);
@@ -126,6 +135,12 @@ private:
   ContactLimit contacts;
   bool warned = false; // in this run, that the step is beyond the limit of the contacts
 
+  // What restart files keep.
+  struct {
+    bigint valid_step = -1; // the step at whose end `state` was written
+    double step = 0;        // what dt contacts has chosen (s), 0: nothing yet
+  } kept;
+
   Step rule = Step::check;
   double max_step;
   double limit = 0;
@@ -133,7 +148,6 @@ private:
   double gravity[2] = {0, 0}, drag = 0; // m/s^2, 1/s
   std::vector<double> inertia;          // over mass radius^2, by type
   std::vector<int> to_start;            // grains whose acceleration was not known at setup
-  bigint valid_step = -1;               // the step at whose end `state` was written
 };
 
 } // namespace LAMMPS_NS

@@ -160,6 +160,7 @@ void PairCDEM::init_style() {
   check_setting();
   rows.init(integrate, cdem::kernels({law, limit_damping}, instructions));
   list_speed = -1;
+  list_of_run = false;
   Shearbox::request_half_size_list(lmp, this, instance_me);
 
   if (!history)
@@ -331,6 +332,7 @@ double PairCDEM::largest_reach() const {
 
 void PairCDEM::build_list() {
   booking = audit != nullptr;
+  list_of_run = true;
   kernels = cdem::kernels({law, limit_damping, booking}, instructions);
   choose_skin();
   listed.assign(atom->tag, atom->tag + atom->nlocal + atom->nghost);
@@ -436,19 +438,29 @@ void PairCDEM::find_pairs() {
 }
 
 void PairCDEM::set_constants(int k, const cdem::Material &material) {
-  const int p = pairs.a(k), q = pairs.b(k), i = rows.grain(p), j = rows.grain(q);
+  const int p = pairs.a(k), q = pairs.b(k);
   if (rows[p].x == rows[q].x && rows[p].y == rows[q].y)
     error->one(FLERR,
                "Pair style cdem: discs of atoms {} and {} have the same centre ({}, {}): no direction to push them "
                "apart",
-               atom->tag[i], atom->tag[j], rows[p].x, rows[p].y);
-  const double mi = atom->rmass[i], mj = atom->rmass[j];
-  const double m = !integrate->is_free(j) ? mi : !integrate->is_free(i) ? mj : mi * mj / (mi + mj);
-  const double rp = rows.radius(p), rq = rows.radius(q);
+               atom->tag[rows.grain(p)], atom->tag[rows.grain(q)], rows[p].x, rows[p].y);
+  const double m = mass(k), rp = rows.radius(p), rq = rows.radius(q);
   const cdem::StepRule step = integrate->step_rule();
   const double h = material.dn / std::sqrt(material.kn), stiffness = material.kn * step.dt * step.dt / m;
   const double in_steps = cdem::dashpot_in_steps(h, stiffness, 2 * step.forward / step.dt);
   pairs.set_constants(k, {rp + rq, 0.5 * (rp - rq), 2 * std::sqrt(m) * in_steps});
+}
+
+void PairCDEM::renew_constants() {
+  const bool running = update->whichflag != 0; // else atoms may have come and gone since the list was built
+  if (running && list_of_run)
+    pairs.for_each([this](int k, const cdem::Material &material) { set_constants(k, material); });
+}
+
+double PairCDEM::mass(int k) const {
+  const int i = rows.grain(pairs.a(k)), j = rows.grain(pairs.b(k));
+  const double mi = atom->rmass[i], mj = atom->rmass[j];
+  return !integrate->is_free(j) ? mi : !integrate->is_free(i) ? mj : mi * mj / (mi + mj);
 }
 
 void PairCDEM::recall_history(int k) {

@@ -79,7 +79,7 @@ public:
   template <class Visit> void for_each_touching(int row, Visit visit) const {
     slots.for_each(row, [&](int k) {
       if (overlap(k) > 0)
-        visit(pairs.a(k) == row ? pairs.b(k) : pairs.a(k), pairs.constants(k).root_mass);
+        visit(pairs.a(k) == row ? pairs.b(k) : pairs.a(k), 2 * std::sqrt(mass(k)));
     });
   }
   struct SpringEnergy {
@@ -88,6 +88,8 @@ public:
   SpringEnergy spring_energy() const; // of the contacts that this rank counts
   void book_losses();                 // of the same, with fix cdem/audit, if there is one
   bool keeps_books() const { return booking; }
+  // To be called when the time step has changed: the dashpots go with it.
+  void renew_constants();
 
   void store_history();   // from the list to the grains
   void leave_list();      // the same, once the atoms have moved on: the list is to be rebuilt
@@ -127,6 +129,7 @@ private:
   void finish_step_in_books();
   void tally();
 
+  double mass(int k) const; // the reduced one of the two grains
   double gap(int p, int q) const;
   double overlap(int k) const;
   bool acts(int k) const;
@@ -159,6 +162,7 @@ private:
   double list_room = 0;                   // at least so far may any point of a grain still move (m)
   double list_speed = -1;                 // at which the farthest got away from the last list (m a step), -1: unknown
   bigint list_step = 0;                   // when the list was built
+  bool list_of_run = false;               // whether it was built in this run
 
   std::vector<tagint> listed;    // ids of all grains, ghosts too, when the list of disc pairs was built
   std::vector<int> block_starts; // grains block_starts[k] ... block_starts[k+1]-1 are block k

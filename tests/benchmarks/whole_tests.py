@@ -28,7 +28,7 @@ STRESSES = (100, 200, 300, 400)  # kPa
 LOOP = r"^Loop time of (\S+) on \d+ procs for (\d+) steps.*?([\d.]+)% CPU use"
 TIMED_SHARE = 0.02  # of the travel at 1 mm/s
 REFERENCE_SPEED = 2  # mm/s
-HALF_STEP = "3.3e-07"  # s: half of what dt auto takes for this model at stiffness 1
+HALF_STEP = "4.4e-07"  # s: half of what dt auto takes for this model at stiffness 1
 
 
 @dataclass(frozen=True)

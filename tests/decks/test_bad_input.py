@@ -83,6 +83,7 @@ CASES: dict[str, tuple[str, str, str]] = {
     "unknown rule for dt": ("dt check", "dt max", r"Fix cdem/integrate: dt max"),
     "dt without a value": ("dt check", "dt", r"Fix cdem/integrate: dt nothing"),
     "largest automatic dt negative": ("dt check", "dt auto -1e-6", r"Fix cdem/integrate: dt auto -1e-06"),
+    "largest dt of the contacts zero": ("dt check", "dt contacts 0", r"Fix cdem/integrate: dt contacts 0: the maximum"),
     "time step beyond the limit": ("timestep      2e-7", "timestep      2e-6", r"time step 2e-06 is beyond the stability limit [1-9]\.\d+e-07"),
     "time step zero": ("timestep      2e-7", "timestep      0", r"Fix cdem/integrate: the time step 0 must be positive"),
     "time step negative": ("timestep      2e-7", "timestep      -2e-7", r"Fix cdem/integrate: the time step -2e-07 must be positive"),

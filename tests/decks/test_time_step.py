@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 
 import pytest
-from engine import Disc, EngineError, run
+from engine import Disc, EngineError, run, same_bits
 from scenes import kinetic_energy, lattice
 
 KN, KS = 1e8, 2.5e7
@@ -80,6 +80,81 @@ def test_automatic_time_step(tmp_path: Path, ranks: int, largest: float) -> None
     out = run(AUTO, tmp_path, discs=[Disc(-0.01, -0.01, 2e-3), Disc(0.01, 0.01)], ranks=ranks, largest=largest)
     limit = out.thermo["v_limit"][0]
     assert out.thermo["Dt"][0] == pytest.approx(min(0.9 * limit, largest), rel=1e-12)
+
+
+# `plan` go: from the restart file, with other springs. At the end the grains are pulled apart.
+CONTACTS = """
+if "${plan} == begin" then "include ${decks}/start.in" &
+else "newton off" "read_restart touching.restart" "pair_coeff * * ${kn} 0 ${hn} 0 27"
+fix ${id} grains cdem/integrate dt contacts ${largest}
+variable limit equal f_${id}
+thermo_style custom step dt v_limit
+thermo_modify format float %.17g
+run 0
+write_restart touching.restart
+displace_atoms grains ramp x -1e-3 1e-3 x -0.01 0.01
+run 1
+"""
+
+
+def pair_limit(kn: float, h: float) -> float:
+    """Of two smooth discs in contact: the positive root of kn dt^2 + 2 c dt = 4 m/2."""
+    m = Disc(0, 0).mass
+    c = 2 * h * math.sqrt(m / 2 * kn)
+    return (math.sqrt(c * c + 2 * m * kn) - c) / kn
+
+
+def step_of_contacts(directory: Path, gap: float, h: float = 0.215, **variables: object) -> tuple[list[float], float]:
+    """Time steps of a run with contacts and one without, and the limit of the worst packing."""
+    discs = [Disc(-0.002 - gap / 2, 0), Disc(0.002 + gap / 2, 0)]
+    options: dict[str, object] = {"ks": 0, "hn": h, "hs": 0, "id": "move", "largest": 1, "plan": "begin"} | variables
+    thermo = run(CONTACTS, directory, discs=discs, **options).thermo
+    return list(thermo["Dt"]), thermo["v_limit"][0]
+
+
+@pytest.mark.parametrize("h", [0, 0.215])
+def test_time_step_of_the_contacts(tmp_path: Path, ranks: int, h: float) -> None:
+    """0.8 of what two discs in contact allow, also when they have parted."""
+    steps, _ = step_of_contacts(tmp_path, -1e-6, h, ranks=ranks, hn=h)
+    assert steps == pytest.approx([0.8 * pair_limit(KN, h)] * len(steps), rel=1e-9)
+
+
+def test_time_step_of_the_contacts_has_a_maximum(tmp_path: Path) -> None:
+    assert step_of_contacts(tmp_path, -1e-6, largest=1e-7)[0] == [1e-7, 1e-7]
+
+
+def test_time_step_without_contacts(tmp_path: Path, ranks: int) -> None:
+    """As dt auto."""
+    steps, limit = step_of_contacts(tmp_path, 1e-4, ranks=ranks)
+    assert steps == pytest.approx([0.9 * limit] * len(steps), rel=1e-12)
+
+
+def test_time_step_of_the_contacts_goes_on(tmp_path: Path, ranks: int) -> None:
+    """A run from a restart file has the step of the run before, even with other springs; a fix of another ID chooses."""
+    first, _ = step_of_contacts(tmp_path, -1e-6, ranks=ranks)
+    assert first[0] == pytest.approx(0.8 * pair_limit(KN, 0.215), rel=1e-9)
+    other = {"plan": "go", "kn": KN / 4, "ranks": ranks}
+    assert set(step_of_contacts(tmp_path, -1e-6, **other)[0]) == {first[0]}
+    fresh, _ = step_of_contacts(tmp_path, -1e-6, **other, id="anew")
+    assert fresh[0] == pytest.approx(0.8 * pair_limit(KN / 4, 0.215), rel=1e-9)
+
+
+CHOSEN = """
+include ${decks}/start.in
+fix move grains cdem/integrate dt contacts
+if "${first} > 0" then "run 0"
+run 20
+include ${decks}/end.in
+"""
+
+
+def test_dashpots_go_with_the_step_that_is_chosen(tmp_path: Path, ranks: int) -> None:
+    """They are scaled for the step (dashpot_in_steps of core/contact_law.h): the first step of a run of its own changes
+    nothing."""
+    discs, box = lattice(6, 6, 1e-5, speed=0.01)
+    options = {"discs": discs, "box": box, "bx": "p", "by": "p", "ranks": ranks}
+    at_once, later = (run(CHOSEN, tmp_path / str(first), first=first, **options).end for first in (0, 1))
+    assert same_bits(at_once, later)
 
 
 ORDER = """
