@@ -26,33 +26,34 @@ struct ClumpColumns {
 
 // Force on a grain, and the torque about its centre.
 [[gnu::always_inline]] inline Four force_on(const ClumpColumns &c, int grain) {
-  const double gx = c.grains[grain].x, gy = c.grains[grain].y;
-  Four sum{};
+  const Four centre = load_raw<Four>(&c.grains[grain].x);
+  Four sum{}, moments{}; // of which the first two are those of fy and of fx
   for (int row = c.first_row[grain]; row < c.first_row[grain + 1]; row++) {
-    const Forces<double> &d = c.sums[row - c.first_summed];
-    const double ox = c.discs[row].x - gx, oy = c.discs[row].y - gy;
-    sum += Four{d.fx, d.fy, d.torque_a + (ox * d.fy - oy * d.fx), 0};
+    const Four force = load_raw<Four>(&c.sums[row - c.first_summed].fx);
+    sum += force;
+    moments += (load_raw<Four>(&c.discs[row].x) - centre) * __builtin_shufflevector(force, force, 1, 0, 2, 3);
   }
+  sum[2] += moments[0] - moments[1];
   return sum;
 }
 
 // A disc at offset o from the grain's centre moves with v + omega x o. Over the step it moved with the offset of the
-// half step, o - dt/2 omega x o, which adds dt/2 omega^2 o.
+// half step, o - dt/2 omega x o, which adds dt/2 omega^2 o. All of that is linear in o as it is at angle 0, so four
+// values of a row are those of the grain, and o.x and o.y times what they are for a unit of each.
 [[gnu::always_inline]] inline void expand(const ClumpColumns &columns, int grain, const Rotation &turn,
                                           double half_step) {
-  const Disc<double> g = columns.grains[grain];
+  const Disc<double> &g = columns.grains[grain];
+  const Four place = load_raw<Four>(&g.x), motion = load_raw<Four>(&g.vx);
   const double inward = half_step * g.omega_half * g.omega_half;
+  const Four along_x{1, 0, inward, g.omega_half}, along_y{0, 1, -g.omega_half, inward};
+  const Four place_x = turn.cosine * along_x + turn.sine * along_y;
+  const Four place_y = turn.cosine * along_y - turn.sine * along_x;
+  const Four motion_x = g.omega * Four{-turn.sine, turn.cosine, 0, 0};
+  const Four motion_y = g.omega * Four{-turn.cosine, -turn.sine, 0, 0};
   for (int row = columns.first_row[grain]; row < columns.first_row[grain + 1]; row++) {
     const Offset &o = columns.offsets[row];
-    const double ox = turn.cosine * o.x - turn.sine * o.y, oy = turn.sine * o.x + turn.cosine * o.y;
-    columns.discs[row] = {g.x + ox,
-                          g.y + oy,
-                          g.vx_half - g.omega_half * oy + inward * ox,
-                          g.vy_half + g.omega_half * ox + inward * oy,
-                          g.vx - g.omega * oy,
-                          g.vy + g.omega * ox,
-                          g.omega_half,
-                          g.omega};
+    store_raw(&columns.discs[row].x, place + (o.x * place_x + o.y * place_y));
+    store_raw(&columns.discs[row].vx, motion + (o.x * motion_x + o.y * motion_y));
   }
 }
 
