@@ -71,18 +71,24 @@ bool VerletCDEM::acts_in_every_step(int ifix) const {
   return (mask & WITHIN) || ((mask & FixConst::END_OF_STEP) && fix->nevery == 1);
 }
 
-// The next step that Verlet has to do.
-bigint VerletCDEM::next_full_step() const {
+// The next step at whose end something looks at the atoms.
+bigint VerletCDEM::next_look() const {
   const bigint now = update->ntimestep;
   bigint next = std::min(update->laststep, output->next);
-  for (int i = 0; i < modify->nfix; i++) {
-    const Fix *const fix = modify->fix[i];
-    if ((modify->fmask[i] & FixConst::END_OF_STEP) && fix->nevery > 0)
-      next = std::min(next, (now / fix->nevery + 1) * fix->nevery);
-    if (fix->force_reneighbor && fix->next_reneighbor > now)
+  for (int i = 0; i < modify->nfix; i++)
+    if (const int every = modify->fix[i]->nevery; (modify->fmask[i] & FixConst::END_OF_STEP) && every > 0)
+      next = std::min(next, (now / every + 1) * every);
+  return next;
+}
+
+// The next step in which a fix or neigh_modify has the list rebuilt.
+bigint VerletCDEM::next_rebuild() const {
+  const bigint now = update->ntimestep;
+  bigint next = MAXBIGINT;
+  for (int i = 0; i < modify->nfix; i++)
+    if (const Fix *const fix = modify->fix[i]; fix->force_reneighbor && fix->next_reneighbor > now)
       next = std::min(next, fix->next_reneighbor);
-  }
-  if (!neighbor->dist_check) { // the step at which neigh_modify has the list rebuilt
+  if (!neighbor->dist_check) {
     const int least = std::max(neighbor->ago + 1, neighbor->delay);
     next = std::min(next, now + (least + neighbor->every - 1) / neighbor->every * neighbor->every - neighbor->ago);
   }
@@ -93,10 +99,32 @@ void VerletCDEM::run(int n) {
   run_start = update->ntimestep;
   const bigint last = run_start + n;
   while (update->ntimestep < last && !stopped()) {
-    if (can_glide)
-      glide(std::min(last, next_full_step()) - 1);
-    if (!stopped())
+    const bigint look = std::min(last, next_look());
+    if (can_glide && glide_to(look))
+      finish_step();
+    else if (!stopped())
       Verlet::run(1);
+  }
+}
+
+// Whether this step has been made, all but its end; else the next one is Verlet's, which also tallies energy and
+// virial.
+bool VerletCDEM::glide_to(bigint look) {
+  ev_set(look);
+  const bool tally = eflag || vflag;
+  const bigint target = std::min(tally ? look - 1 : look, next_rebuild() - 1);
+  glide(target);
+  return update->ntimestep == look;
+}
+
+// As in Verlet::run.
+void VerletCDEM::finish_step() {
+  if (modify->n_end_of_step)
+    modify->end_of_step();
+  timer->stamp(Timer::MODIFY);
+  if (update->ntimestep == output->next) {
+    output->write(update->ntimestep);
+    timer->stamp(Timer::OUTPUT);
   }
 }
 
@@ -136,6 +164,7 @@ void VerletCDEM::glide_on(bigint target) {
   for (WallBody *fix : wall_bodies)
     fix->move_rows(nullptr);
   pair->rows.write_back();
+  comm->forward_comm(); // for those who look at ghosts
   force_clear();
   pair->forces();
   integrate->post_force(0);

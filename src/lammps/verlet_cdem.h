@@ -4,7 +4,8 @@
 // Velocity Verlet, to the same bits as run_style verlet, but several times faster for pair style cdem: as long as
 // nothing else looks at the atoms, steps are made on the rows of the pair style alone, the forces of a block of grains
 // and their motion in one go. LAMMPS's own arrays are brought up to date for every step with output, for a fix or a
-// variable that acts at the end of a step, and for a rebuild of the neighbour list; that step is run_style verlet's.
+// variable that acts at the end of a step, and for a rebuild of the neighbour list. A step with a rebuild, and one for
+// which somebody wants energy or virial of the pairs, is run_style verlet's.
 //
 // The neighbour list is rebuilt before any grain can have moved out of it, whatever neigh_modify every and check say;
 // should a grain have more than quadrupled its speed in just that step, it counts as a dangerous build.
@@ -38,9 +39,12 @@ public:
 private:
   std::string hindrance() const; // what makes all steps those of run_style verlet; empty if nothing does
   bool acts_in_every_step(int ifix) const;
-  bigint next_full_step() const;
+  bigint next_look() const;
+  bigint next_rebuild() const;
 
   bool stopped();
+  bool glide_to(bigint look);
+  void finish_step();
   void glide(bigint target);
   void glide_on(bigint target);
   void find_walls();
