@@ -55,7 +55,7 @@ inline Material material(double kn, double ks, double hn, double hs, double mu) 
 // plus, and of disc b, half the distance minus half the difference of the radii.
 template <class T> struct Pair {
   T radius_sum, half_difference; // r_a + r_b, (r_a - r_b)/2
-  T root_mass; // 2 sqrt(m), m = m_a m_b/(m_a + m_b), or the grain's mass against a wall; times dashpot_in_steps
+  T root_mass; // 2 sqrt(m), m = m_a m_b/(m_a + m_b), or the grain's mass against a wall; less by mass_of_steps
 };
 
 // What a contact remembers: the tangential spring force, and for the incremental law the normal one (N). The former is
@@ -135,11 +135,15 @@ template <class T>
 //
 // The dashpots' velocity comes from the two half steps behind, x' - dt^2/3 x''', and the scheme's acceleration is
 // x'' + dt^2/12 x''''. For x' = lambda x the equation of motion gives lambda^3 and lambda^4 in terms of lambda, and so
-// the damping ratio of the scheme, h (1 + (11 - 20 h^2)/24 k dt^2/m), which this takes away. w is the share by which
-// the velocity is carried forward (stability.h); as it goes to 0 so does the correction.
-inline double dashpot_in_steps(double h, double kdt2_over_m, double w) {
-  return 1 / (1 + w * std::max(0.0, (11 - 20 * h * h) / 24) * kdt2_over_m);
+// the damping ratio of the scheme, h (1 + (11 - 20 h^2)/24 k dt^2/m), which this takes away: a pair of mass m has
+// m/(m + this) of its dashpots. w is the share by which the velocity is carried forward (stability.h); as it goes to 0
+// so does the correction.
+inline double mass_of_steps(const Material &material, double dt, double w) {
+  const double h = material.dn / std::sqrt(material.kn);
+  return w * std::max(0.0, (11 - 20 * h * h) / 24) * material.kn * dt * dt;
 }
+// Pair's value for the time steps that `of_steps` is of.
+inline double root_mass(double m, double of_steps) { return 2 * std::sqrt(m) * m / (m + of_steps); }
 
 // The tangential spring of a pair in this step and before it, what it would be without friction's limit, and that
 // limit.

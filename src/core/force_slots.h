@@ -74,10 +74,10 @@ inline int block_of(const std::vector<int> &starts, int row) {
 
 class ForceSlots {
 public:
-  // Rows starts[k] ... starts[k+1]-1 are block k. before(p, q) orders the pairs of a disc by the disc on the other
-  // side.
-  template <class Before, class IsWall>
-  void build(DiscPairs &pairs, const std::vector<int> &starts, Before before, IsWall is_wall) {
+  // Rows starts[k] ... starts[k+1]-1 are block k. The pairs of a disc are in the order of rank(the disc on the other
+  // side).
+  template <class Rank, class IsWall>
+  void build(DiscPairs &pairs, const std::vector<int> &starts, Rank rank, IsWall is_wall) {
     const int n = starts.back();
     count_slots(pairs, n);
     make_runs(starts, is_wall);
@@ -93,15 +93,25 @@ public:
       pairs.set_slot_a(k, unsummed());
       pairs.set_slot_b(k, unsummed());
     }
+    struct Side {
+      decltype(rank(0)) partner;
+      int pair;
+      bool is_a;
+    };
+    std::vector<Side> sides;
     for (int row = 0; row < n; row++) {
-      auto partner = [&](int k) { return pairs.a(k) == row ? pairs.b(k) : pairs.a(k); };
+      sides.clear();
       const auto begin = pair_of_slot.begin() + first_pair[row], end = begin + counts[row];
-      std::sort(begin, end, [&](int k, int l) { return before(partner(k), partner(l)); });
-      for (int s = 0; s < counts[row]; s++)
-        if (pairs.a(begin[s]) == row)
-          pairs.set_slot_a(begin[s], first_slot[row] + s);
-        else
-          pairs.set_slot_b(begin[s], first_slot[row] + s);
+      for (auto pair = begin; pair != end; ++pair) {
+        const bool is_a = pairs.a(*pair) == row;
+        sides.push_back({rank(is_a ? pairs.b(*pair) : pairs.a(*pair)), *pair, is_a});
+      }
+      std::sort(sides.begin(), sides.end(), [](const Side &s, const Side &t) { return s.partner < t.partner; });
+      for (int s = 0; s < counts[row]; s++) {
+        const auto &[partner, pair, is_a] = sides[s];
+        begin[s] = pair;
+        is_a ? pairs.set_slot_a(pair, first_slot[row] + s) : pairs.set_slot_b(pair, first_slot[row] + s);
+      }
     }
   }
 

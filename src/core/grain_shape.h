@@ -24,6 +24,8 @@ public:
     double x, y, r;
   };
 
+  static constexpr std::size_t MOST_DISCS = 1000;
+
   // The discs in any unit and position, or std::invalid_argument with what is wrong with them.
   explicit GrainShape(const std::vector<Member> &given) : members(given) {
     check();
@@ -85,6 +87,9 @@ private:
   void check() const {
     if (members.empty())
       throw std::invalid_argument("it has no discs");
+    if (members.size() > MOST_DISCS)
+      throw std::invalid_argument("it has " + std::to_string(members.size()) + " discs, at most " +
+                                  std::to_string(MOST_DISCS) + " are allowed");
     for (std::size_t k = 0; k < members.size(); k++) {
       const Member &d = members[k];
       if (!std::isfinite(d.x) || !std::isfinite(d.y) || !std::isfinite(d.r))

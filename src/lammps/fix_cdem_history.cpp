@@ -113,7 +113,7 @@ int FixCDEMHistory::unpack(int i, const double *buf) {
   count[i] = int(*in++);
   first[i] = int(contacts.size());
   for (int k = 0; k < count[i]; k++, in += PER_CONTACT)
-    contacts.push_back({(tagint)ubuf(in[0]).i, int(in[1]), int(in[2]), in[3], in[4]});
+    contacts.push_back({(tagint)ubuf(in[0]).i, short(in[1]), short(in[2]), in[3], in[4]});
   return int(in - buf);
 }
 

@@ -19,7 +19,7 @@ public:
   // the pair, whose first disc belongs to the grain of the lower id.
   struct Contact {
     tagint partner;
-    int own_disc, other_disc;
+    short own_disc, other_disc;
     double es, en;
   };
 

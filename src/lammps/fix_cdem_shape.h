@@ -6,11 +6,11 @@
 //
 //   TEMPLATE  single               a disc
 //             triple               three equal discs, each touching the other two
-//             discs N x y r ...    N discs in any unit, about any origin; they may overlap and must be connected
+//             discs N x y r ...    N discs, at most 1000, in any unit, about any origin; they may overlap and must be
+//                                  connected
 //             file NAME            the same from a file: a line "x y r" a disc, # starts a comment
 //   density   mass per area (kg/m^2): sets the mass of the group's grains at the start of each run, from the area of
-//   the
-//             union of the discs
+//             the union of the discs
 //   orient    turns the group's grains to random angles, once; the angle depends on SEED and the atom id alone
 //
 // Every atom type needs a template. Mass centre, area and inertia are those of the union of the discs, see

@@ -33,20 +33,17 @@ void GrainRows::map() {
   first_row.resize(nall + 1);
   grain_of_row.clear();
   offsets.clear();
+  radii.clear();
   for (int i = 0; i < nall; i++) {
     first_row[i] = int(grain_of_row.size());
     for (const auto &disc : shapes[atom->type[i]]->discs()) {
       grain_of_row.push_back(i);
       offsets.push_back({atom->radius[i] * disc.x, atom->radius[i] * disc.y});
+      radii.push_back(atom->radius[i] * disc.r);
     }
   }
   first_row[nall] = int(grain_of_row.size());
   disc_rows.resize(grain_of_row.size());
-}
-
-double GrainRows::radius(int row) const {
-  const int i = grain(row);
-  return clumps ? atom->radius[i] * shapes[atom->type[i]]->discs()[disc(row)].r : atom->radius[i];
 }
 
 double GrainRows::reach(int i) const { return atom->radius[i] * shapes[atom->type[i]]->reach(); }

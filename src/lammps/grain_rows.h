@@ -9,6 +9,7 @@
 #include "core/force_kernel.h"
 #include "core/grain_shape.h"
 
+#include "atom.h"
 #include "pointers.h"
 
 #include <vector>
@@ -33,7 +34,7 @@ public:
   int rows_of(int natoms) const { return clumps ? first_row[natoms] : natoms; }
   int grain(int row) const { return clumps ? grain_of_row[row] : row; }
   int disc(int row) const { return clumps ? row - first_row[grain_of_row[row]] : 0; }
-  double radius(int row) const;
+  double radius(int row) const { return clumps ? radii[row] : atom->radius[row]; }
   double reach(int i) const; // from the grain's centre to that of its furthest disc
   const cdem::Disc<double> *discs() const { return clumps ? disc_rows.data() : grains.data(); }
   const cdem::Disc<double> &operator[](int row) const { return discs()[row]; }
@@ -84,6 +85,7 @@ private:
   cdem::Column<cdem::Disc<double>> grains, disc_rows;
   cdem::Column<cdem::Body> bodies;         // of grains
   cdem::Column<cdem::Offset> offsets;      // of discs
+  std::vector<double> radii;               // of discs, empty unless clumps
   cdem::Column<cdem::Forces<double>> sums; // of some own discs, one after the other
   int first_summed = 0;
 };

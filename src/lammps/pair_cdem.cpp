@@ -338,15 +338,14 @@ void PairCDEM::build_list() {
   listed.assign(atom->tag, atom->tag + atom->nlocal + atom->nghost);
   divide_into_blocks();
   find_pairs();
-  pairs.for_each([this](int k, const cdem::Material &material) {
-    set_constants(k, material);
-    recall_history(k);
-  });
+  set_constants();
+  pairs.for_each([this](int k, const cdem::Material &) { recall_history(k); });
   std::vector<int> row_starts;
   for (int grain : block_starts)
     row_starts.push_back(rows.rows_of(grain));
   slots.build(
-      pairs, row_starts, [this](int p, int q) { return row_before(p, q); },
+      // The order of all sums: by the id of the grain, then by the disc.
+      pairs, row_starts, [this](int p) { return std::pair(atom->tag[rows.grain(p)], rows.disc(p)); },
       [this](int p) { return !integrate->is_free(rows.grain(p)); });
 
   discs_built_at.resize(atom->nlocal + atom->nghost);
@@ -363,11 +362,16 @@ void PairCDEM::build_list() {
 // for another one: its forces may have a share left. The bits of the forces don't depend on the skin.
 void PairCDEM::choose_skin() {
   constexpr double LEAST = 0.01, SAFETY = 8;
+  constexpr int LOOKED_AT = 256; // grains, whose neighbours tell enough
   const double largest = neighbor->skin;
   const double step = update->dt * rows.fastest(atom->nlocal + atom->nghost).speed(largest_reach());
+  const int every = std::max(1, list->inum / LOOKED_AT);
   double touching = 0, near = 0;
   list_skin = largest;
-  for_each_candidate([&](int p, int q) { (gap(p, q) < 0 ? touching : near) += 1; });
+  for (int ii = 0; ii < list->inum; ii += every)
+    for_each_candidate(list->ilist[ii], [&](int p, int q, double square) {
+      (std::sqrt(square) < rows.radius(p) + rows.radius(q) ? touching : near) += every;
+    });
   const double cheapest =
       cdem::cheapest_skin(rows.rows_of(atom->nlocal), touching, near / largest, list_speed < 0 ? step : list_speed);
   list_skin = std::min(std::max({cheapest, LEAST * largest, SAFETY * step}), largest);
@@ -383,31 +387,20 @@ void PairCDEM::divide_into_blocks() {
   block_starts.push_back(atom->nlocal);
 }
 
-// The order of all sums: by the id of the grain, then by the disc.
-bool PairCDEM::row_before(int p, int q) const {
-  const tagint tag_p = atom->tag[rows.grain(p)], tag_q = atom->tag[rows.grain(q)];
-  return tag_p != tag_q ? tag_p < tag_q : rows.disc(p) < rows.disc(q);
-}
-
-// Between the rims of two discs.
-double PairCDEM::gap(int p, int q) const {
-  const double dx = rows[p].x - rows[q].x, dy = rows[p].y - rows[q].y;
-  return std::sqrt(dx * dx + dy * dy) - rows.radius(p) - rows.radius(q);
-}
-
-// Calls visit(row, row) for all pairs of discs that may touch before the next rebuild.
-template <class Visit> void PairCDEM::for_each_candidate(Visit visit) const {
-  for (int ii = 0; ii < list->inum; ii++) {
-    const int i = list->ilist[ii];
-    for (int jj = 0; jj < list->numneigh[i]; jj++) {
-      const int j = list->firstneigh[i][jj] & NEIGHMASK;
-      if (!integrate->is_free(i) && !integrate->is_free(j))
-        continue;
-      for (int p = rows.rows_of(i); p < rows.rows_of(i + 1); p++)
-        for (int q = rows.rows_of(j); q < rows.rows_of(j + 1); q++)
-          if (gap(p, q) < list_skin)
-            visit(p, q);
-    }
+// Calls visit(row, row, square of their distance) for all pairs of discs that may touch before the next rebuild, of
+// grain i and those that LAMMPS lists as its neighbours.
+template <class Visit> void PairCDEM::for_each_candidate(int i, Visit visit) const {
+  for (int jj = 0; jj < list->numneigh[i]; jj++) {
+    const int j = list->firstneigh[i][jj] & NEIGHMASK;
+    if (!integrate->is_free(i) && !integrate->is_free(j))
+      continue;
+    for (int p = rows.rows_of(i); p < rows.rows_of(i + 1); p++)
+      for (int q = rows.rows_of(j); q < rows.rows_of(j + 1); q++) {
+        const double dx = rows[p].x - rows[q].x, dy = rows[p].y - rows[q].y, square = dx * dx + dy * dy;
+        const double reach = rows.radius(p) + rows.radius(q) + list_skin;
+        if (square < reach * reach)
+          visit(p, q, square);
+      }
   }
 }
 
@@ -417,44 +410,55 @@ void PairCDEM::find_pairs() {
   std::vector<cdem::Material> by_types;
   for (const auto &row : materials)
     by_types.insert(by_types.end(), row.begin(), row.end());
-  auto segment_of = [&](int p, int q) {
-    const int i = rows.grain(p), j = rows.grain(q);
+  int lower = -1, block = 0; // the last one's
+  auto segment_of = [&](int i, int j) {
+    if (std::min(i, j) != lower)
+      block = cdem::block_of(block_starts, lower = std::min(i, j));
     const auto [low, high] = std::minmax(atom->type[i], atom->type[j]);
-    return (cdem::block_of(block_starts, std::min(i, j)) * types + low) * types + high;
+    return (block * types + low) * types + high;
   };
 
   std::vector<int> sizes(by_types.size() * (block_starts.size() - 1), 0), next(sizes.size(), 0);
-  for_each_candidate([&](int p, int q) { sizes[segment_of(p, q)]++; });
+  found.clear();
+  for (int ii = 0; ii < list->inum; ii++)
+    for_each_candidate(list->ilist[ii], [&](int p, int q, double square) {
+      const int i = rows.grain(p), j = rows.grain(q), segment = segment_of(i, j);
+      if (square == 0)
+        refuse_same_centre(p, q);
+      const bool p_first = atom->tag[i] < atom->tag[j];
+      found.push_back({p_first ? p : q, p_first ? q : p, segment});
+      sizes[segment]++;
+    });
   pairs.lay_out(by_types, sizes, law, booking);
   auto segment = pairs.segments.begin();
   for (std::size_t m = 0; m < sizes.size(); m++)
     if (sizes[m])
       next[m] = (segment++)->begin;
-  for_each_candidate([&](int p, int q) {
-    const int k = next[segment_of(p, q)]++;
-    const bool p_first = atom->tag[rows.grain(p)] < atom->tag[rows.grain(q)];
-    pairs.set_discs(k, p_first ? p : q, p_first ? q : p);
-  });
+  for (const auto &[p, q, segment] : found)
+    pairs.set_discs(next[segment]++, p, q);
 }
 
-void PairCDEM::set_constants(int k, const cdem::Material &material) {
-  const int p = pairs.a(k), q = pairs.b(k);
-  if (rows[p].x == rows[q].x && rows[p].y == rows[q].y)
-    error->one(FLERR,
-               "Pair style cdem: discs of atoms {} and {} have the same centre ({}, {}): no direction to push them "
-               "apart",
-               atom->tag[rows.grain(p)], atom->tag[rows.grain(q)], rows[p].x, rows[p].y);
-  const double m = mass(k), rp = rows.radius(p), rq = rows.radius(q);
+void PairCDEM::refuse_same_centre(int p, int q) const {
+  error->one(FLERR,
+             "Pair style cdem: discs of atoms {} and {} have the same centre ({}, {}): no direction to push them apart",
+             atom->tag[rows.grain(p)], atom->tag[rows.grain(q)], rows[p].x, rows[p].y);
+}
+
+void PairCDEM::set_constants() {
   const cdem::StepRule step = integrate->step_rule();
-  const double h = material.dn / std::sqrt(material.kn), stiffness = material.kn * step.dt * step.dt / m;
-  const double in_steps = cdem::dashpot_in_steps(h, stiffness, 2 * step.forward / step.dt);
-  pairs.set_constants(k, {rp + rq, 0.5 * (rp - rq), 2 * std::sqrt(m) * in_steps});
+  for (const auto &[material, begin, end] : pairs.segments) {
+    const double of_steps = cdem::mass_of_steps(material, step.dt, 2 * step.forward / step.dt);
+    for (int k = begin; k < end; k++) {
+      const double rp = rows.radius(pairs.a(k)), rq = rows.radius(pairs.b(k));
+      pairs.set_constants(k, {rp + rq, 0.5 * (rp - rq), cdem::root_mass(mass(k), of_steps)});
+    }
+  }
 }
 
 void PairCDEM::renew_constants() {
   const bool running = update->whichflag != 0; // else atoms may have come and gone since the list was built
   if (running && list_of_run)
-    pairs.for_each([this](int k, const cdem::Material &material) { set_constants(k, material); });
+    set_constants();
 }
 
 double PairCDEM::mass(int k) const {
@@ -633,8 +637,8 @@ void PairCDEM::store_history() {
       const int a = pairs.a(k), b = pairs.b(k);
       for (const auto &[own, other] : {std::pair{a, b}, std::pair{b, a}})
         if (rows.grain(own) < own_grains)
-          visit(rows.grain(own),
-                FixCDEMHistory::Contact{listed[rows.grain(other)], rows.disc(own), rows.disc(other), es, en});
+          visit(rows.grain(own), FixCDEMHistory::Contact{listed[rows.grain(other)], short(rows.disc(own)),
+                                                         short(rows.disc(other)), es, en});
     });
   };
   std::vector<int> count(own_grains, 0);

@@ -114,14 +114,13 @@ private:
   void check_setting() const;
   void check_periods() const;
 
-  bool row_before(int, int) const;
-
   void build_list();
   void choose_skin();
   void divide_into_blocks();
-  template <class Visit> void for_each_candidate(Visit) const;
+  template <class Visit> void for_each_candidate(int i, Visit) const;
   void find_pairs();
-  void set_constants(int k, const cdem::Material &);
+  void refuse_same_centre(int p, int q) const;
+  void set_constants();
   void recall_history(int k);
 
   void pair_forces(int block);
@@ -130,7 +129,6 @@ private:
   void tally();
 
   double mass(int k) const; // the reduced one of the two grains
-  double gap(int p, int q) const;
   double overlap(int k) const;
   bool acts(int k) const;
   SpringEnergy spring_energy(int k, const cdem::Material &) const;
@@ -166,6 +164,10 @@ private:
 
   std::vector<tagint> listed;    // ids of all grains, ghosts too, when the list of disc pairs was built
   std::vector<int> block_starts; // grains block_starts[k] ... block_starts[k+1]-1 are block k
+  struct Found {
+    int p, q, segment;
+  };
+  std::vector<Found> found; // pairs of rows for the list, those of the lower id first
   cdem::DiscPairs pairs;
   cdem::ForceSlots slots;
   cdem::Kernels kernels{};

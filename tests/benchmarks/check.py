@@ -44,7 +44,7 @@ TOLERANCES = {
     "left side (N)": 0.08,
     "right side (N)": 0.08,
     # The peers damp all pairs at the mean grain's rate, and LAMMPS gives clumps too much inertia (together up to 0.04). Our
-    # dashpots are weaker by up to 0.04, since steps would damp too much (dashpot_in_steps); theirs are not.
+    # dashpots are weaker by up to 0.04, since steps would damp too much (mass_of_steps); theirs are not.
     "used up of the push (%)": 0.08,
     # Means over 0.04 mm, in which some contacts slip earlier or later; the lid rises by 4 micrometres.
     "shear stress (kPa)": 0.02,

@@ -41,7 +41,8 @@ struct Packing {
       pairs.set_constants(k, {2 * RADIUS, 0, 0.013});
       count++;
     });
-    slots.build(pairs, starts, std::less<int>(), [](int) { return false; });
+    slots.build(
+        pairs, starts, [](int row) { return row; }, [](int) { return false; });
     const double distance = 2 * RADIUS - OVERLAP;
     for (int i = 0; i < n; i++) {
       const int row = i / side, column = i % side;

@@ -149,7 +149,7 @@ include ${decks}/end.in
 
 
 def test_dashpots_go_with_the_step_that_is_chosen(tmp_path: Path, ranks: int) -> None:
-    """They are scaled for the step (dashpot_in_steps of core/contact_law.h): the first step of a run of its own changes
+    """They are scaled for the step (mass_of_steps of core/contact_law.h): the first step of a run of its own changes
     nothing."""
     discs, box = lattice(6, 6, 1e-5, speed=0.01)
     options = {"discs": discs, "box": box, "bx": "p", "by": "p", "ranks": ranks}

@@ -264,9 +264,9 @@ TEST(Switch, NotWhereNothingChanges) {
 // worst of some moments in a step at which they may touch first, less exp(-pi h/sqrt(1 - h^2)).
 double worst_error_of_restitution(double h, int steps) {
   const Material m = material(KN, KS, h, h, 0.5);
-  const double mass = 1e-3, root_mass = 2 * std::sqrt(mass); // that of the pair
+  const double mass = 1e-3; // of the pair
   const double dt = M_PI * std::sqrt(mass / KN / (1 - h * h)) / steps;
-  const Pair<double> pair{2e-3, 0, root_mass * dashpot_in_steps(h, KN * dt * dt / mass, 1)};
+  const Pair<double> pair{2e-3, 0, root_mass(mass, mass_of_steps(m, dt, 1))};
   double worst = 0;
   for (int phase = 0; phase < 32; phase++) {
     Disc<double> a{}, b{};
@@ -300,7 +300,7 @@ TEST(ContactLaw, NormalImpactIsOfThirdOrder) {
 std::vector<double> after_oblique_impact(double slip, int steps, double phase) {
   const double radius = 1e-3, inertia = 0.5 * MASS * radius * radius, speed = 1e-5;
   const double dt = M_PI * std::sqrt(MASS / KN) / steps;
-  const Pair<double> pair{2 * radius, 0, 2 * std::sqrt(MASS) * dashpot_in_steps(HN, KN * dt * dt / MASS, 1)};
+  const Pair<double> pair{2 * radius, 0, root_mass(MASS, mass_of_steps(steel, dt, 1))};
   Disc<double> a{}, b{};
   a.x = 2 * radius + phase * speed * dt;
   a.vx_half = a.vx = -speed;
@@ -348,7 +348,7 @@ TEST(ContactLaw, ImpactsThatStickAndSlipAreOfSecondOrder) {
 TEST(ContactLaw, ScaledDashpotsDecayAsWithoutSteps) {
   for (double h : {0.05, 0.215, 0.5})
     for (double dt : {0.3, 0.15}) {
-      const double c = 2 * h * dashpot_in_steps(h, dt * dt, 1);
+      const double c = h * root_mass(1, mass_of_steps(material(1, 1, h, h, 0), dt, 1));
       std::vector<double> x{1};
       for (double half = 0, a = 0; x.size() < 60;) {
         x.push_back(x.back() + dt * half);

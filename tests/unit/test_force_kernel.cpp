@@ -61,7 +61,8 @@ struct Scene {
       if (law == Law::incremental)
         pairs.en[k] = unit(random);
     }
-    slots.build(pairs, {0, middle, n}, std::less<int>(), is_wall);
+    slots.build(
+        pairs, {0, middle, n}, [](int row) { return row; }, is_wall);
   }
 
   void step(const Kernels &kernels) {

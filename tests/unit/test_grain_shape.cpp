@@ -290,6 +290,10 @@ std::string refusal(const Discs &discs) {
 
 TEST(GrainShape, BadTemplatesAreNamed) {
   EXPECT_EQ(refusal({}), "it has no discs");
+  std::vector<GrainShape::Member> many;
+  for (int k = 0; k <= 1000; k++)
+    many.push_back({2.0 * k, 0, 1});
+  EXPECT_EQ(refusal(many), "it has 1001 discs, at most 1000 are allowed");
   EXPECT_EQ(refusal({{0, 0, 1}, {1, 0, 0}}), "disc 2 has radius 0, must be positive");
   EXPECT_EQ(refusal({{0, 0, -0.5}}), "disc 1 has radius -0.5, must be positive");
   EXPECT_EQ(refusal({{0, 0, 1}, {NAN, 0, 1}}), "disc 2 has a coordinate or radius that is not a finite number");
