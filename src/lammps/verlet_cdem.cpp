@@ -34,6 +34,7 @@ void VerletCDEM::init() {
     error->all(FLERR, "Run style verlet/cdem needs pair_style cdem");
   statistics.clear();
   wall_bodies.clear();
+  felt_since = -1;
   for (int i = 0; i < modify->nfix; i++) {
     if (auto *fix = dynamic_cast<FixCDEMTRM *>(modify->fix[i]))
       statistics.push_back(fix);
@@ -197,6 +198,9 @@ void VerletCDEM::begin_step() {
 }
 
 void VerletCDEM::find_walls() {
+  if (felt_since == neighbor->lastcall)
+    return;
+  felt_since = neighbor->lastcall;
   felt.clear();
   for (int i = 0; i < atom->nlocal; i++)
     if (std::any_of(wall_bodies.begin(), wall_bodies.end(),

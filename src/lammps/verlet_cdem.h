@@ -58,7 +58,8 @@ private:
   FixCDEMIntegrate *integrate = nullptr;
   std::vector<WallBody *> wall_bodies;
   std::vector<FixCDEMTRM *> statistics;
-  std::vector<int> felt; // own wall discs whose forces matter in every step
+  std::vector<int> felt;  // own wall discs whose forces matter in every step
+  bigint felt_since = -1; // the step of the rebuild after which they were found
 
   bool can_glide = false;
   bigint run_start = 0;
