@@ -78,7 +78,7 @@ class Shear:
 
     def jobs(self, beds: Path, share: float) -> list[Job]:
         """A job for each engine, ours first; makes the specimen if it is not there yet. `share` shortens the travel.
-        All have the same time step, and the full test's intervals of output in steps.
+        All have the time step that ours chooses, and the full test's intervals of output in steps.
         """
         folder = consolidate(self.model, self.sigma, self.stiffness, beds)
         scene = (folder / "shear.scene").read_text()
@@ -91,7 +91,7 @@ class Shear:
         files = {"data": folder / "shear.data", "scene": folder / "shear.scene"}
         material = {"kn": KN * self.stiffness, "ks": KN / 4 * self.stiffness}
         peers: dict[str, object] = {"decks": HERE, **files, **test, **material}
-        ours = {"decks": INPUT, "model": self.model, "stiffness": self.stiffness, "dt": repr(dt), "ramp": 0, "audit": "no", **test}
+        ours = {"decks": INPUT, "model": self.model, "stiffness": self.stiffness, "ramp": 0, "audit": "no", **test}
         restart = (folder / "consolidated.restart",)
         return [
             Job(CDEM, INPUT / "shear.in", ours, steps, self.discs, files=restart),
