@@ -55,6 +55,21 @@ run 2000
     assert same_bits(runs[0].end, runs[1].end)
 
 
+def test_who_looks_at_ghosts_sees_where_they_are(tmp_path: Path, ranks: int) -> None:
+    """Distances of two grains that meet across a period of the box, from LAMMPS's list and its ghosts."""
+    discs = [Disc(-0.008, 0, vx=-1), Disc(0.008, 1e-5, vx=1, omega=100)]
+    deck = """
+compute distance all pair/local dist
+dump    distance all local 7 distances.dump c_distance
+dump_modify distance format float %.17g
+run 700
+"""
+    options = {"discs": discs, "box": (-0.01, 0.01, -0.01, 0.01), "bx": "p", "kn": 1e5, "ks": 2e4, "ranks": ranks}
+    runs = [run(START + MOVE + deck, tmp_path / s[-4:], style=s, **options) for s in ("verlet", "verlet/cdem")]
+    verlet, cdem = ((r.directory / "distances.dump").read_text() for r in runs)
+    assert cdem == verlet and cdem.count("0.003") > 50
+
+
 def test_walls_that_nothing_moves(tmp_path: Path) -> None:
     """A wall with a velocity but no fix to move it drags the grain along, and stays where it is."""
     discs = [Disc(0, 0, vy=-1), Disc(0, -3.999e-3, vx=2, omega=30, type=2)]
