@@ -97,7 +97,7 @@ def test_numbers_of_the_summary(folder):
     assert first["grains_lost"] == 0 and first["dangerous_builds"] == 0
     assert first["energy_error_percent"] == pytest.approx(-0.02)
     assert first["consolidation"]["height_m"] == 0.0987
-    assert result["dt_s"] == pytest.approx(0.01 / 2 / synthetic.STEPS_PER_ROW)
+    assert first["dt_s"] == pytest.approx(0.01 / 2 / synthetic.STEPS_PER_ROW)
     assert result["criteria"]["dilates"]["holds"]
     assert result["criteria"]["proportional"]["holds"] is None, "two stresses cannot show it"
 

@@ -29,7 +29,6 @@ def summarise(results: Results) -> dict[str, Any]:
         "speed_mm_s": identity["speed_mm_s"],
         "travel_mm": identity["travel_mm"],
         "grains": identity["model ngrains"],
-        "dt_s": _time_step(results),
         "complete": results.complete,
         "notes": results.notes,
         "problems": results.problems,
@@ -65,6 +64,7 @@ def _stress(results: Results, shear: Shear) -> dict[str, Any]:
     return {
         "sigma_kPa": shear.sigma,
         "complete": shear.complete,
+        "dt_s": _time_step(shear, results.identity["speed_mm_s"]),
         "displacement_reached_mm": shear.reached,
         "tau_peak_kPa": peak.value,
         "tau_peak_error_kPa": peak.value_error,
@@ -105,15 +105,14 @@ def _verdict(verdict: Verdict) -> dict[str, Any]:
     return {"holds": verdict.holds, "reason": verdict.reason}
 
 
-def _time_step(results: Results) -> float | None:
-    """dt from steps and displacements; the speed is constant after the ramp at the start."""
-    for shear in results.shears:
-        steps, displacement = shear.data["step"], shear.data["displacement_mm"]
-        half = len(steps) // 2
-        seconds = (displacement[-1] - displacement[half]) / results.identity["speed_mm_s"]
-        if steps[-1] > steps[half]:
-            return float(f"{seconds / (steps[-1] - steps[half]):.4g}")
-    return None
+def _time_step(shear: Shear, speed: float) -> float | None:
+    """dt from steps and displacements; the speed (mm/s) is constant between the ramp and the stop at the end."""
+    steps, displacement = shear.data["step"], shear.data["displacement_mm"]
+    begin, end = len(steps) // 2, 3 * len(steps) // 4
+    if steps[end] == steps[begin]:
+        return None
+    seconds = (displacement[end] - displacement[begin]) / speed
+    return float(f"{seconds / (steps[end] - steps[begin]):.4g}")
 
 
 def phase_logs(results: Results) -> dict[str, Log]:
