@@ -351,22 +351,25 @@ def draw_tests(settings: dict[Setting, list[Outcome]], stock: float | None, file
         axes.set_title(measure.name, fontsize=10)
         axes.set(xscale="log", yscale="log", ylim=(LEAST, 100))
     finish(panels, "shear phase at one stress (s)", "mean difference from the reference (%)")
-    add_key(figure, len(settings[REFERENCE]), bool(stock))
+    add_key(figure, settings, bool(stock))
     save(figure, file)
 
 
-def add_key(figure: plt.Figure, seeds: int, stock: bool) -> None:
-    """Legend of the figure of whole tests, above it."""
+def add_key(figure: plt.Figure, settings: dict[Setting, list[Outcome]], stock: bool) -> None:
+    """Legend of the figure of whole tests, above it: what was measured, and no more."""
+    speeds, stiffnesses = {s.speed for s in settings}, {s.stiffness for s in settings}
 
     def entry(label: str, **style: Any) -> plt.Line2D:
         return plt.Line2D([], [], label=label, **style)
 
-    entries = [entry(f"{v:g} mm/s", color=c, marker="o", ls="") for v, c in SPEED_COLOURS.items()]
+    entries = [entry(f"{v:g} mm/s", color=c, marker="o", ls="") for v, c in SPEED_COLOURS.items() if v in speeds]
     entries += [
-        entry(f"stiffness {k:g}", color="black", marker=m, mfc="white", ls="") for k, m in STIFFNESS_MARKERS.items()
+        entry(f"stiffness {k:g}", color="black", marker=m, mfc="white", ls="")
+        for k, m in STIFFNESS_MARKERS.items()
+        if k in stiffnesses and len(stiffnesses) > 1
     ]
     entries.append(entry(f"filled: beyond {SIGNIFICANT} standard errors", color="black", marker="o", ls=""))
-    band = f"standard deviation of a specimen ({seeds} seeds)"
+    band = f"standard deviation of a specimen ({len(settings[REFERENCE])} seeds)"
     entries.append(plt.Rectangle((0, 0), 1, 1, color="0.92", label=band))
     entries.append(entry("reference, cdem", color="black"))
     if stock:
