@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_cdem_history.h"
 
+#include "core/grain_shape.h"
 #include "pair_cdem.h"
 
 #include "atom.h"
@@ -8,12 +9,14 @@
 #include "lmptype.h"
 
 #include <algorithm>
+#include <climits>
 
 using namespace LAMMPS_NS;
 
 namespace {
 constexpr int PER_CONTACT = 5;
-}
+static_assert(cdem::GrainShape::MOST_DISCS <= SHRT_MAX); // what a Contact has room for
+} // namespace
 
 FixCDEMHistory::FixCDEMHistory(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) {
   restart_global = 1;

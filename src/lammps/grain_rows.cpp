@@ -202,5 +202,5 @@ cdem::Fastest GrainRows::fastest(int n) const {
 double GrainRows::bytes() const {
   return double((grains.capacity() + disc_rows.capacity()) * sizeof(Disc) + bodies.capacity() * sizeof(cdem::Body) +
                 sums.capacity() * sizeof(sums[0]) + (first_row.capacity() + grain_of_row.capacity()) * sizeof(int) +
-                offsets.capacity() * sizeof(cdem::Offset));
+                offsets.capacity() * sizeof(cdem::Offset) + radii.capacity() * sizeof(double));
 }

@@ -691,4 +691,6 @@ void PairCDEM::read_restart_settings(FILE *fp) {
   limit_damping = flags[1];
 }
 
-double PairCDEM::memory_usage() { return Pair::memory_usage() + rows.bytes() + pairs.bytes() + slots.bytes(); }
+double PairCDEM::memory_usage() {
+  return Pair::memory_usage() + rows.bytes() + double(found.capacity() * sizeof(Found)) + pairs.bytes() + slots.bytes();
+}

@@ -34,7 +34,6 @@ void VerletCDEM::init() {
     error->all(FLERR, "Run style verlet/cdem needs pair_style cdem");
   statistics.clear();
   wall_bodies.clear();
-  felt_since = -1;
   for (int i = 0; i < modify->nfix; i++) {
     if (auto *fix = dynamic_cast<FixCDEMTRM *>(modify->fix[i]))
       statistics.push_back(fix);
@@ -198,14 +197,11 @@ void VerletCDEM::begin_step() {
 }
 
 void VerletCDEM::find_walls() {
-  if (felt_since == neighbor->lastcall)
-    return;
-  felt_since = neighbor->lastcall;
   felt.clear();
-  for (int i = 0; i < atom->nlocal; i++)
-    if (std::any_of(wall_bodies.begin(), wall_bodies.end(),
-                    [i](const WallBody *fix) { return fix->follows_forces() && fix->in_group(i); }))
-      felt.push_back(i);
+  for (const WallBody *fix : wall_bodies)
+    if (fix->follows_forces())
+      felt.insert(felt.end(), fix->own_discs().begin(), fix->own_discs().end());
+  std::sort(felt.begin(), felt.end());
 }
 
 // The second half of a step and the first of the next, by the fixes that move them.

@@ -58,8 +58,7 @@ private:
   FixCDEMIntegrate *integrate = nullptr;
   std::vector<WallBody *> wall_bodies;
   std::vector<FixCDEMTRM *> statistics;
-  std::vector<int> felt;  // own wall discs whose forces matter in every step
-  bigint felt_since = -1; // the step of the rebuild after which they were found
+  std::vector<int> felt; // own wall discs whose forces matter in every step
 
   bool can_glide = false;
   bigint run_start = 0;

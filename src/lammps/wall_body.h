@@ -27,7 +27,7 @@ public:
 
   virtual bool follows_forces() const = 0; // whether it needs the forces in every step
 
-  bool in_group(int i) const;
+  const std::vector<int> &own_discs() const { return discs; }
 
   bool is_audited() const { return audit; }
 
@@ -38,6 +38,8 @@ public:
 
 protected:
   using Vector = GrainRows::Vector;
+
+  bool in_group(int i) const;
 
   // Next argument as a number; error if there is none or it is not one.
   double number(int narg, char **arg, int &iarg, const char *keyword) const;

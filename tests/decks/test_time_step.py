@@ -115,7 +115,7 @@ def step_of_contacts(directory: Path, gap: float, h: float = 0.215, **variables:
 @pytest.mark.parametrize("h", [0, 0.215])
 def test_time_step_of_the_contacts(tmp_path: Path, ranks: int, h: float) -> None:
     """0.8 of what two discs in contact allow, also when they have parted."""
-    steps, _ = step_of_contacts(tmp_path, -1e-6, h, ranks=ranks, hn=h)
+    steps, _ = step_of_contacts(tmp_path, -1e-6, h, ranks=ranks)
     assert steps == pytest.approx([0.8 * pair_limit(KN, h)] * len(steps), rel=1e-9)
 
 
