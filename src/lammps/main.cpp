@@ -4,6 +4,7 @@
 #include "styles.h"
 
 #include "comm.h"
+#include "error.h"
 #include "exceptions.h"
 #include "force.h"
 #include "input.h"
@@ -49,13 +50,18 @@ void LAMMPS::post_create() {
 }
 
 // The folder of the input file as variable `decks`, unless -var gives it: a deck includes its parts from there, and
-// LAMMPS itself looks for them in the current folder only.
+// LAMMPS itself looks for them in the current folder only. It takes no blanks in what it includes; as seen from the
+// current folder there often are none.
 static void set_decks(LAMMPS *lmp, int argc, char **argv) {
   for (int i = 1; i + 1 < argc; i++) {
     const std::string word = argv[i];
     if (word != "-in" && word != "-i")
       continue;
-    const std::string folder = std::filesystem::path(argv[i + 1]).parent_path().string();
+    std::string folder = std::filesystem::path(argv[i + 1]).parent_path().string();
+    if (folder.find(' ') != std::string::npos)
+      folder = std::filesystem::proximate(folder).string();
+    if (folder.find(' ') != std::string::npos)
+      lmp->error->warning(FLERR, "LAMMPS's include cannot read from folder '{}': there is a blank in its name", folder);
     lmp->input->variable->set("decks index \"" + (folder.empty() ? "." : folder) + "\"");
   }
 }

@@ -30,11 +30,13 @@ pair_coeff * * 1e6 1e6 0.1 0.1 30
 """
 
 
-def run(cwd: Path, deck: str | None, ranks: int = 1, *options: str) -> subprocess.CompletedProcess[str]:
-    """Run a deck (None: an input file that is not there); a deadlock shows as a time-out."""
+def run(
+    cwd: Path, deck: str | None, ranks: int = 1, *options: str, file: str = "in.test"
+) -> subprocess.CompletedProcess[str]:
+    """Run a deck (None: the file is there already, or is not to be); a deadlock shows as a time-out."""
     if deck is not None:
         (cwd / "in.test").write_text(deck)
-    command = [str(PROGRAM), "-in", "in.test", "-log", "none", *options]
+    command = [str(PROGRAM), "-in", file, "-log", "none", *options]
     if ranks > 1:
         command = ["mpirun", "--oversubscribe", "-np", str(ranks), *command]
     return subprocess.run(
@@ -72,6 +74,21 @@ def test_error_in_deck_fails(tmp_path: Path, ranks: int) -> None:
     done = run(tmp_path, "pair_style nonsense", ranks)
     assert done.returncode != 0
     assert "nonsense" in done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("folder", ["decks", "my decks"])
+def test_parts_of_a_deck_are_found_beside_it(tmp_path: Path, folder: str) -> None:
+    decks = tmp_path / "a blank" / folder
+    decks.mkdir(parents=True)
+    (decks / "whole.in").write_text("include ${decks}/part.in")
+    (decks / "part.in").write_text('print "here"')
+    cwd = tmp_path / "a blank" / "results"
+    cwd.mkdir()
+    done = run(cwd, None, file=str(decks / "whole.in"))
+    if " " in folder:  # LAMMPS cannot
+        assert f"include cannot read from folder '../{folder}'" in done.stdout
+    else:
+        assert "here" in done.stdout.splitlines()
 
 
 def test_error_in_one_partition_ends_the_others(tmp_path: Path) -> None:
