@@ -4,17 +4,22 @@
 #include "core/grain_shape.h"
 #include "pair_cdem.h"
 
+#include "compat.h"
+
 #include "atom.h"
 #include "comm.h"
+#include "error.h"
 #include "lmptype.h"
 
 #include <algorithm>
 #include <climits>
+#include <unordered_map>
 
 using namespace LAMMPS_NS;
 
 namespace {
-constexpr int PER_CONTACT = 5;
+constexpr int PER_GRAIN = 2, PER_CONTACT = 5; // numbers that are packed
+constexpr tagint NOBODY = 0;
 static_assert(cdem::GrainShape::MOST_DISCS <= SHRT_MAX); // what a Contact has room for
 } // namespace
 
@@ -23,6 +28,7 @@ FixCDEMHistory::FixCDEMHistory(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, nar
   restart_peratom = 1;
   create_attribute = 1;
   maxexchange_dynamic = 1;
+  comm_forward = 1;
   FixCDEMHistory::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
@@ -33,17 +39,18 @@ FixCDEMHistory::~FixCDEMHistory() {
   atom->delete_callback(id, Atom::RESTART);
 }
 
-int FixCDEMHistory::setmask() { return FixConst::PRE_EXCHANGE; }
+int FixCDEMHistory::setmask() { return FixConst::PRE_EXCHANGE | FixConst::PRE_NEIGHBOR; }
 
-void FixCDEMHistory::make_room(const std::vector<int> &count_of) {
+void FixCDEMHistory::make_room(const std::vector<int> &count_of, const std::vector<tagint> &ids) {
   int next = 0;
   for (std::size_t i = 0; i < count_of.size(); i++) {
     first[i] = next;
     count[i] = 0;
+    owner[i] = ids[i];
     next += count_of[i];
   }
   contacts.resize(next);
-  maxexchange = 1 + PER_CONTACT * (count_of.empty() ? 0 : *std::max_element(count_of.begin(), count_of.end()));
+  maxexchange = PER_GRAIN + PER_CONTACT * (count_of.empty() ? 0 : *std::max_element(count_of.begin(), count_of.end()));
 }
 
 const FixCDEMHistory::Contact *FixCDEMHistory::find_contact(int i, tagint partner, int own_disc, int other_disc) const {
@@ -69,6 +76,44 @@ void FixCDEMHistory::pre_exchange() {
 
 void FixCDEMHistory::post_run() { take(); }
 
+bool FixCDEMHistory::has_new_ids() const {
+  int mine = 0, all;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (count[i] > 0 && owner[i] != atom->tag[i])
+      mine = 1;
+  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MAX, world);
+  return all;
+}
+
+// Both grains remember a contact, so each knows its own id in it. A partner that is not here is no neighbour any more.
+void FixCDEMHistory::setup_pre_neighbor() {
+  if (!has_new_ids())
+    return;
+  Shearbox::forward_comm(lmp, this);
+  std::unordered_map<tagint, tagint> now;
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++)
+    if (owner[i] != NOBODY)
+      now[owner[i]] = atom->tag[i];
+  for (int i = 0; i < atom->nlocal; i++) {
+    for (int k = first[i]; k < first[i] + count[i]; k++) {
+      const auto partner = now.find(contacts[k].partner);
+      contacts[k].partner = partner == now.end() ? NOBODY : partner->second;
+    }
+    owner[i] = atom->tag[i];
+  }
+}
+
+int FixCDEMHistory::pack_forward_comm(int n, int *list, double *buf, int, int *) {
+  for (int k = 0; k < n; k++)
+    buf[k] = ubuf(count[list[k]] > 0 ? owner[list[k]] : NOBODY).d;
+  return n;
+}
+
+void FixCDEMHistory::unpack_forward_comm(int n, int first_ghost, double *buf) {
+  for (int k = 0; k < n; k++)
+    owner[first_ghost + k] = (tagint)ubuf(buf[k]).i;
+}
+
 // Called before the grains are packed. LAMMPS expects a global block: an empty one.
 void FixCDEMHistory::write_restart(FILE *fp) {
   if (pair)
@@ -79,12 +124,14 @@ void FixCDEMHistory::write_restart(FILE *fp) {
 }
 
 double FixCDEMHistory::memory_usage() {
-  return double((first.capacity() + count.capacity()) * sizeof(int) + contacts.capacity() * sizeof(Contact));
+  return double((first.capacity() + count.capacity()) * sizeof(int) + owner.capacity() * sizeof(tagint) +
+                contacts.capacity() * sizeof(Contact));
 }
 
 void FixCDEMHistory::grow_arrays(int nmax) {
   first.resize(nmax, 0);
   count.resize(nmax, 0);
+  owner.resize(nmax, NOBODY);
 }
 
 // A fix that comes before this one may move grains to other ranks (balance) or take some away (evaporate) when its own
@@ -93,13 +140,18 @@ void FixCDEMHistory::copy_arrays(int i, int j, int) {
   take();
   first[j] = first[i];
   count[j] = count[i];
+  owner[j] = owner[i];
 }
 
-void FixCDEMHistory::set_arrays(int i) { count[i] = 0; }
+void FixCDEMHistory::set_arrays(int i) {
+  count[i] = 0;
+  owner[i] = NOBODY;
+}
 
 int FixCDEMHistory::pack(int i, double *buf) const {
   double *out = buf;
   *out++ = count[i];
+  *out++ = ubuf(owner[i]).d;
   for (int k = first[i]; k < first[i] + count[i]; k++) {
     const Contact &c = contacts[k];
     *out++ = ubuf(c.partner).d;
@@ -114,6 +166,7 @@ int FixCDEMHistory::pack(int i, double *buf) const {
 int FixCDEMHistory::unpack(int i, const double *buf) {
   const double *in = buf;
   count[i] = int(*in++);
+  owner[i] = (tagint)ubuf(*in++).i;
   first[i] = int(contacts.size());
   for (int k = 0; k < count[i]; k++, in += PER_CONTACT)
     contacts.push_back({(tagint)ubuf(in[0]).i, short(in[1]), short(in[2]), in[3], in[4]});
@@ -140,14 +193,17 @@ void FixCDEMHistory::unpack_restart(int i, int nth) {
   const double *block = atom->extra[i];
   for (int skip = 0; skip < nth; skip++)
     block += int(*block);
+  if (int(block[0]) != 1 + PER_GRAIN + PER_CONTACT * int(block[1]))
+    error->one(FLERR, "Pair style cdem: the restart file is of another version of this style: contacts of atom {}",
+               atom->tag[i]);
   unpack(i, block + 1);
 }
 
-int FixCDEMHistory::size_restart(int i) { return 2 + PER_CONTACT * count[i]; }
+int FixCDEMHistory::size_restart(int i) { return 1 + PER_GRAIN + PER_CONTACT * count[i]; }
 
 int FixCDEMHistory::maxsize_restart() {
   const int n = count.empty() ? 0 : *std::max_element(count.begin(), count.begin() + atom->nlocal);
   int most;
   MPI_Allreduce(&n, &most, 1, MPI_INT, MPI_MAX, world);
-  return 2 + PER_CONTACT * most;
+  return 1 + PER_GRAIN + PER_CONTACT * most;
 }

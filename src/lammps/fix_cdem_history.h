@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // fix cdem/history: made by pair style cdem, not by the user. Between rebuilds the history of contacts lives in the
 // pair style's list; this fix holds it by grain while that list is rebuilt, when grains migrate, and in restart files.
+// Grains may be given other ids between runs (delete_atoms does so, unless it is told `compress no`, reset_atom_ids
+// too): the history follows.
 #pragma once
 
 #include "fix.h"
@@ -26,17 +28,20 @@ public:
   FixCDEMHistory(LAMMPS *, int, char **);
   ~FixCDEMHistory() override;
 
-  // Forgets all and makes room for so many contacts of each grain, which are added then.
-  void make_room(const std::vector<int> &count);
+  // Forgets all and makes room for so many contacts of each grain, of these ids, which are added then.
+  void make_room(const std::vector<int> &count, const std::vector<tagint> &ids);
   void add(int i, const Contact &contact) { contacts[first[i] + count[i]++] = contact; }
   const Contact *find_contact(int i, tagint partner, int own_disc, int other_disc) const;
 
   int setmask() override;
   void pre_exchange() override;
+  void setup_pre_neighbor() override;
   void post_run() override;
   double memory_usage() override;
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
   void set_arrays(int) override;
   int pack_exchange(int, double *) override;
   int unpack_exchange(int, double *) override;
@@ -53,7 +58,10 @@ private:
   int pack(int i, double *buf) const;
   int unpack(int i, const double *buf);
 
+  bool has_new_ids() const;
+
   std::vector<int> first, count; // per atom, into contacts
+  std::vector<tagint> owner;     // the atom's id as its contacts know it
   std::vector<Contact> contacts; // arriving grains append; make_room() starts afresh
 };
 

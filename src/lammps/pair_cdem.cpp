@@ -643,7 +643,7 @@ void PairCDEM::store_history() {
   };
   std::vector<int> count(own_grains, 0);
   for_each_memory([&](int i, const auto &) { count[i]++; });
-  history->make_room(count);
+  history->make_room(count, listed);
   for_each_memory([this](int i, const auto &contact) { history->add(i, contact); });
 }
 

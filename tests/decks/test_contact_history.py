@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from engine import Disc, Frame, run
-from scenes import shifted
+from engine import Disc, Frame, run, same_bits
+from scenes import lattice, shifted
 
 BOUNCE = """
 include ${decks}/start.in
@@ -86,3 +86,50 @@ def test_collision_across_ranks(tmp_path: Path, law: str, ranks: int) -> None:
     alone = run(COLLIDE, tmp_path / "alone", discs=oblique_pair(1.0), **options)
     out = run(COLLIDE, tmp_path / "ranks", discs=oblique_pair(1.0), ranks=ranks, **options)
     assert np.array_equal(motion(out.end), motion(alone.end))
+
+
+RENUMBERED = """
+include ${{decks}}/start.in
+group lone id 1
+fix move grains cdem/integrate
+timestep 1e-7
+run 50
+{change}
+run 50
+include ${{decks}}/end.in
+"""
+FROM_FILE = """
+write_restart between.restart
+clear
+newton off
+read_restart between.restart
+comm_modify vel yes
+neighbor ${skin} bin
+run_style ${style}
+fix move grains cdem/integrate
+timestep 1e-7
+"""
+NEW_IDS = {
+    "delete": "delete_atoms group lone",
+    "delete-restart": "delete_atoms group lone" + FROM_FILE,
+    "reset": "delete_atoms group lone compress no\nreset_atom_ids",
+}
+
+
+@pytest.mark.parametrize("change", NEW_IDS)
+def test_history_follows_new_ids(tmp_path: Path, law: str, ranks: int, change: str) -> None:
+    """A grain far from all others is taken away, which gives new ids to these: the same as if they had kept theirs, to
+    the bit if the order of the ids is the same, as on one rank; else forces are summed in another order."""
+    discs, (_, width, _, height) = lattice(6, 6, 1e-6, speed=0.05)
+    discs = [Disc(0.019, 0.019), *shifted(discs, -width / 2, -height / 2)]
+    options = {"discs": discs, "law": law, "ranks": ranks, "skin": 1e-3}
+    kept = run(RENUMBERED.format(change="delete_atoms group lone compress no"), tmp_path / "kept", **options).end
+    new = run(RENUMBERED.format(change=NEW_IDS[change]), tmp_path / "new", **options).end
+    assert np.array_equal(kept["id"], np.arange(2, 38))
+    assert np.array_equal(new["id"], np.arange(1, 37))
+    squares = (new["x"][:, None] - kept["x"]) ** 2 + (new["y"][:, None] - kept["y"]) ** 2
+    same = np.argmin(squares, axis=1)
+    if np.array_equal(same, np.arange(36)):
+        assert same_bits(new, kept, STATE)
+    else:
+        assert motion(new) == pytest.approx(motion(kept)[:, same], rel=1e-8)
