@@ -9,6 +9,7 @@
 #include "fix_cdem_shape.h"
 
 #include "atom.h"
+#include "atom_vec.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -135,6 +136,8 @@ void PairCDEM::check_setting() const {
     error->all(FLERR, "Pair style cdem: newton is on, must be off ('newton off' before the box is made)");
   if (!atom->sphere_flag)
     error->all(FLERR, "Pair style cdem needs atom_style sphere");
+  if (strcmp(atom->atom_style, "sphere") == 0 && !atom->avec->comm_x_only) // that is how it shows
+    error->all(FLERR, "Pair style cdem: atom_style sphere 1 must be sphere or sphere 0: radii cannot change in a run");
   if (!comm->ghost_velocity)
     error->all(FLERR, "Pair style cdem needs 'comm_modify vel yes'");
   if (!integrate)

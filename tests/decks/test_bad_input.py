@@ -69,6 +69,7 @@ CASES: dict[str, tuple[str, str, str]] = {
     "newton on": ("newton        off", "newton        on", r"Pair style cdem: newton is on"),
     "ghosts without velocities": ("comm_modify   vel yes", "", r"Pair style cdem needs 'comm_modify vel yes'"),
     "atom style atomic": ("atom_style    sphere", "atom_style    atomic", r"needs atom_style sphere"),
+    "radii that change": ("atom_style    sphere", "atom_style    sphere 1", r"atom_style sphere 1 must be sphere or sphere 0"),
     "a neighbour list without a skin": ("0.001 bin", "0 bin", r"the skin of the neighbour list is 0, must be positive"),
     "minimize": ("run           20", "minimize 0 1e-6 10 100", r"minimize has no steps of time"),
     "a period that two grains fill": ("timestep", "change_box all boundary p f p\nset atom 1 diameter 0.021\ntimestep", r"the box is periodic over 0.04 m in x, must be 0.042 m"),
