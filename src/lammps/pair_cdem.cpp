@@ -132,6 +132,9 @@ void PairCDEM::coeff(int narg, char **arg) {
 void PairCDEM::check_setting() const {
   if (domain->dimension != 2)
     error->all(FLERR, "Pair style cdem: dimension is {}, must be 2", domain->dimension);
+  if (force->ftm2v != 1)
+    error->all(FLERR, "Pair style cdem: units {}: force must be mass times acceleration: si, cgs, lj, micro or nano",
+               update->unit_style);
   if (force->newton_pair)
     error->all(FLERR, "Pair style cdem: newton is on, must be off ('newton off' before the box is made)");
   if (!atom->sphere_flag)

@@ -69,6 +69,7 @@ CASES: dict[str, tuple[str, str, str]] = {
     "newton on": ("newton        off", "newton        on", r"Pair style cdem: newton is on"),
     "ghosts without velocities": ("comm_modify   vel yes", "", r"Pair style cdem needs 'comm_modify vel yes'"),
     "atom style atomic": ("atom_style    sphere", "atom_style    atomic", r"needs atom_style sphere"),
+    "units without F = m a": ("units         si", "units         metal", r"units metal: force must be mass times acceleration"),
     "radii that change": ("atom_style    sphere", "atom_style    sphere 1", r"atom_style sphere 1 must be sphere or sphere 0"),
     "a neighbour list without a skin": ("0.001 bin", "0 bin", r"the skin of the neighbour list is 0, must be positive"),
     "minimize": ("run           20", "minimize 0 1e-6 10 100", r"minimize has no steps of time"),
