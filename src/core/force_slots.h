@@ -115,6 +115,8 @@ public:
     }
   }
 
+  int pairs_of(int row) const { return counts[row]; }
+
   // Calls visit(k) for every pair k of a disc.
   template <class Visit> void for_each(int row, Visit visit) const {
     const auto begin = pair_of_slot.begin() + first_pair[row];

@@ -50,8 +50,9 @@ void FixCDEMHistory::make_room(const std::vector<int> &count_of, const std::vect
     next += count_of[i];
   }
   contacts.resize(next);
-  maxexchange = PER_GRAIN + PER_CONTACT * (count_of.empty() ? 0 : *std::max_element(count_of.begin(), count_of.end()));
 }
+
+void FixCDEMHistory::expect_at_most(int most) { maxexchange = PER_GRAIN + PER_CONTACT * most; }
 
 const FixCDEMHistory::Contact *FixCDEMHistory::find_contact(int i, tagint partner, int own_disc, int other_disc) const {
   for (int k = first[i]; k < first[i] + count[i]; k++) {
@@ -72,6 +73,15 @@ void FixCDEMHistory::take() {
 void FixCDEMHistory::pre_exchange() {
   if (pair)
     pair->leave_list();
+  agree_on_room();
+}
+
+void FixCDEMHistory::setup_pre_exchange() { agree_on_room(); }
+
+// A grain on its way to a rank at a corner is handed on by another one.
+void FixCDEMHistory::agree_on_room() {
+  const int mine = maxexchange;
+  MPI_Allreduce(&mine, &maxexchange, 1, MPI_INT, MPI_MAX, world);
 }
 
 void FixCDEMHistory::post_run() { take(); }
@@ -167,6 +177,7 @@ int FixCDEMHistory::unpack(int i, const double *buf) {
   const double *in = buf;
   count[i] = int(*in++);
   owner[i] = (tagint)ubuf(*in++).i;
+  maxexchange = std::max(maxexchange, PER_GRAIN + PER_CONTACT * count[i]);
   first[i] = int(contacts.size());
   for (int k = 0; k < count[i]; k++, in += PER_CONTACT)
     contacts.push_back({(tagint)ubuf(in[0]).i, short(in[1]), short(in[2]), in[3], in[4]});

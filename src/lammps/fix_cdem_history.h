@@ -30,11 +30,14 @@ public:
 
   // Forgets all and makes room for so many contacts of each grain, of these ids, which are added then.
   void make_room(const std::vector<int> &count, const std::vector<tagint> &ids);
+  // No grain will have more contacts than this, until this is called again.
+  void expect_at_most(int most);
   void add(int i, const Contact &contact) { contacts[first[i] + count[i]++] = contact; }
   const Contact *find_contact(int i, tagint partner, int own_disc, int other_disc) const;
 
   int setmask() override;
   void pre_exchange() override;
+  void setup_pre_exchange() override;
   void setup_pre_neighbor() override;
   void post_run() override;
   double memory_usage() override;
@@ -58,6 +61,7 @@ private:
   int pack(int i, double *buf) const;
   int unpack(int i, const double *buf);
 
+  void agree_on_room();
   bool has_new_ids() const;
 
   std::vector<int> first, count; // per atom, into contacts

@@ -353,6 +353,7 @@ void PairCDEM::build_list() {
       // The order of all sums: by the id of the grain, then by the disc.
       pairs, row_starts, [this](int p) { return std::pair(atom->tag[rows.grain(p)], rows.disc(p)); },
       [this](int p) { return !integrate->is_free(rows.grain(p)); });
+  history->expect_at_most(most_pairs());
 
   discs_built_at.resize(atom->nlocal + atom->nghost);
   angle_built_at.resize(rows.has_clumps() ? discs_built_at.size() : 0);
@@ -362,6 +363,18 @@ void PairCDEM::build_list() {
     angle_built_at[i] = rows.angle(i);
   list_room = 0.5 * list_skin;
   list_step = update->ntimestep;
+}
+
+// Of any own grain.
+int PairCDEM::most_pairs() const {
+  int most = 0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    int n = 0;
+    for (int p = rows.rows_of(i); p < rows.rows_of(i + 1); p++)
+      n += slots.pairs_of(p);
+    most = std::max(most, n);
+  }
+  return most;
 }
 
 // The skin of the list of disc pairs that costs least, see core/list_skin.h. A pair that opens in this step must stay

@@ -122,6 +122,7 @@ private:
   void refuse_same_centre(int p, int q) const;
   void set_constants();
   void recall_history(int k);
+  int most_pairs() const;
 
   void pair_forces(int block);
   void keep_forces(int block);
