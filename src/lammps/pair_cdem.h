@@ -14,7 +14,8 @@
 //   phi            friction angle, degrees, 0 <= phi < 90
 //
 // m is m_i m_j/(m_i + m_j), or m_i against a wall: an atom outside the group of fix cdem/integrate. Walls never act on
-// each other. Needs dimension 2, atom_style sphere, newton off, comm_modify vel yes and fix cdem/integrate.
+// each other. Needs dimension 2, atom_style sphere (radii cannot change in a run), newton off, comm_modify vel yes, fix
+// cdem/integrate, and units in which force is mass times acceleration: si, cgs, lj, micro or nano.
 // single() and contacts() read the last step and change nothing. eng_vdwl is the elastic energy of the springs.
 #pragma once
 
