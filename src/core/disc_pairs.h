@@ -24,7 +24,9 @@ struct alignas(64) PairGroup {
 };
 
 // What will be needed soon after the pairs of a block: the rows that no block has read yet, and the bodies of the
-// block's grains. The loop over the pairs fetches some of both with every group.
+// block's grains. The loop over the pairs fetches some of both with every group, and of the groups to come, unless
+// these are null: a scene that does not fit into the second cache would wait for memory, one that does is in no need of
+// it.
 struct Ahead {
   const void *rows = nullptr, *bodies = nullptr;
 };

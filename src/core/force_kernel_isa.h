@@ -38,8 +38,7 @@ template <int lines> [[gnu::always_inline]] inline const void *prefetch(const vo
   return begin + LINE * lines;
 }
 
-// Groups ahead, and what the block's grains and the next block will need: without this a scene that does not fit into
-// the second cache waits for memory.
+// Groups ahead, and what the block's grains and the next block will need.
 [[gnu::always_inline]] inline void prefetch(const PairGroup *group, Ahead &ahead) {
   constexpr int GROUPS = 8;
   prefetch<sizeof(PairGroup) / LINE>(group + GROUPS);
@@ -48,18 +47,19 @@ template <int lines> [[gnu::always_inline]] inline const void *prefetch(const vo
 }
 
 // Root and division of the next pairs are begun before the law is applied to these: see Distance.
-template <Law law, bool limit_damping, class Books, class T>
-void forces(const Disc<double> *discs, const PairColumns &columns, const Material &material, int begin, int end,
-            double dt) {
+template <Law law, bool limit_damping, class Books, class T, bool fetches>
+void loop(const Disc<double> *discs, const PairColumns &columns, const Material &material, int begin, int end,
+          double dt) {
   const PairColumns p = columns; // copies: what is stored below could otherwise change them
   const Material m = material;
   constexpr int SIZE = PairGroup::SIZE;
-  Ahead ahead = p.ahead;
+  [[maybe_unused]] Ahead ahead = p.ahead;
   PairGroup *group = p.groups + begin / SIZE, *const group_end = p.groups + (end + SIZE - 1) / SIZE;
   Relative<T> relative = load_relative(discs, group->a, group->b, T());
   Distance<T> distance = distance_of(relative);
   for (; group != group_end; ++group) {
-    prefetch(group, ahead);
+    if constexpr (fetches)
+      prefetch(group, ahead);
     for (int lane = 0; lane < SIZE; lane += WIDTH) {
       const PairGroup &next_group = group[(lane + WIDTH) / SIZE];
       const int next_lane = (lane + WIDTH) % SIZE;
@@ -83,6 +83,13 @@ void forces(const Disc<double> *discs, const PairColumns &columns, const Materia
       distance = next_distance;
     }
   }
+}
+
+template <Law law, bool limit_damping, class Books, class T>
+void forces(const Disc<double> *discs, const PairColumns &columns, const Material &material, int begin, int end,
+            double dt) {
+  columns.ahead.rows ? loop<law, limit_damping, Books, T, true>(discs, columns, material, begin, end, dt)
+                     : loop<law, limit_damping, Books, T, false>(discs, columns, material, begin, end, dt);
 }
 
 void sum(const SlotBlock &block, Forces<double> *sums, int first) {

@@ -236,7 +236,8 @@ void PairCDEM::pair_forces(int block) {
   history_in_list = true;
   const double dt = update->setupflag ? 0 : update->dt;
   cdem::PairColumns columns = pairs.columns(slots.data());
-  columns.ahead = {rows.discs() + slots.read_end(block), rows.body(block_starts[block])};
+  if (fetches_ahead)
+    columns.ahead = {rows.discs() + slots.read_end(block), rows.body(block_starts[block])};
   for (int k = pairs.first_segment[block]; k < pairs.first_segment[block + 1]; k++) {
     const auto &segment = pairs.segments[k];
     kernels.forces(rows.discs(), columns, segment.material, segment.begin, segment.end, dt);
@@ -354,6 +355,8 @@ void PairCDEM::build_list() {
       pairs, row_starts, [this](int p) { return std::pair(atom->tag[rows.grain(p)], rows.disc(p)); },
       [this](int p) { return !integrate->is_free(rows.grain(p)); });
   history->expect_at_most(most_pairs());
+  constexpr double SECOND_CACHE = 2e6; // of a core, bytes
+  fetches_ahead = pairs.bytes() + rows.bytes() + slots.bytes() > SECOND_CACHE;
 
   discs_built_at.resize(atom->nlocal + atom->nghost);
   angle_built_at.resize(rows.has_clumps() ? discs_built_at.size() : 0);

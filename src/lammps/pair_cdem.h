@@ -173,6 +173,7 @@ private:
   cdem::DiscPairs pairs;
   cdem::ForceSlots slots;
   cdem::Kernels kernels{};
+  bool fetches_ahead = false; // see core/disc_pairs.h
   bool history_in_list = false;
 };
 

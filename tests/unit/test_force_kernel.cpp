@@ -67,8 +67,9 @@ struct Scene {
 
   void step(const Kernels &kernels) {
     Fastest fastest;
-    const PairColumns columns = pairs.columns(slots.data());
+    PairColumns columns = pairs.columns(slots.data());
     for (int block = 0; block < slots.blocks(); block++) {
+      columns.ahead = block ? Ahead{discs.data(), bodies.data()} : Ahead{}; // both loops
       for (int s = pairs.first_segment[block]; s < pairs.first_segment[block + 1]; s++)
         kernels.forces(discs.data(), columns, pairs.segments[s].material, pairs.segments[s].begin,
                        pairs.segments[s].end, DT);
