@@ -193,7 +193,7 @@ def ratio_bars(scenes: dict[str, Samples], file: Path) -> None:
     axes.set_yticks(range(len(scenes)), scenes)
     axes.invert_yaxis()
     axes.set_xlabel("time of the peer / time of pair style cdem (–)")
-    axes.legend()
+    axes.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1))
     save(figure, file)
 
 
@@ -213,5 +213,5 @@ def phase_bars(scenes: dict[str, Samples], file: Path) -> None:
     axes.set_yticks(range(len(bars)), [name for name, _ in bars], fontsize=7)
     axes.invert_yaxis()
     axes.set_xlabel("time per disc and step (ns)")
-    axes.legend(fontsize=7)
+    axes.legend(fontsize=7, ncols=len(PHASES), loc="lower center", bbox_to_anchor=(0.5, 1))
     save(figure, file)
