@@ -141,6 +141,8 @@ void PairCDEM::check_setting() const {
     error->all(FLERR, "Pair style cdem needs atom_style sphere");
   if (strcmp(atom->atom_style, "sphere") == 0 && !atom->avec->comm_x_only) // that is how it shows
     error->all(FLERR, "Pair style cdem: atom_style sphere 1 must be sphere or sphere 0: radii cannot change in a run");
+  if (!atom->tag_enable)
+    error->all(FLERR, "Pair style cdem: atom_modify id no must be yes: contacts are remembered by the ids of grains");
   if (!comm->ghost_velocity)
     error->all(FLERR, "Pair style cdem needs 'comm_modify vel yes'");
   if (!integrate)
@@ -157,6 +159,9 @@ void PairCDEM::check_setting() const {
       error->one(FLERR, "Pair style cdem: atom {} has radius {}, must be positive", atom->tag[i], atom->radius[i]);
     if (!(atom->rmass[i] > 0))
       error->one(FLERR, "Pair style cdem: atom {} has mass {}, must be positive", atom->tag[i], atom->rmass[i]);
+    if (atom->x[i][2] != 0)
+      error->one(FLERR, "Pair style cdem: atom {} is at z = {}, must be 0: LAMMPS takes distances in space",
+                 atom->tag[i], atom->x[i][2]);
   }
 }
 

@@ -70,6 +70,7 @@ CASES: dict[str, tuple[str, str, str]] = {
     "ghosts without velocities": ("comm_modify   vel yes", "", r"Pair style cdem needs 'comm_modify vel yes'"),
     "atom style atomic": ("atom_style    sphere", "atom_style    atomic", r"needs atom_style sphere"),
     "units without F = m a": ("units         si", "units         metal", r"units metal: force must be mass times acceleration"),
+    "an atom out of the plane": ("timestep", "set atom 1 z 0.001\ntimestep", r"atom 1 is at z = 0.001, must be 0"),
     "radii that change": ("atom_style    sphere", "atom_style    sphere 1", r"atom_style sphere 1 must be sphere or sphere 0"),
     "a neighbour list without a skin": ("0.001 bin", "0 bin", r"the skin of the neighbour list is 0, must be positive"),
     "minimize": ("run           20", "minimize 0 1e-6 10 100", r"minimize has no steps of time"),
@@ -176,6 +177,28 @@ def check(deck: str, directory: Path, message: str, ranks: int) -> None:
 def test_the_good_deck_is_good(tmp_path: Path, ranks: int) -> None:
     status, output = start(GOOD, tmp_path, ranks=ranks)
     assert status == 0, output
+
+
+NO_IDS = """
+units si
+dimension 2
+atom_style sphere
+atom_modify id no
+newton off
+comm_modify vel yes
+region box block -0.02 0.02 -0.02 0.02 -0.5 0.5
+create_box 1 box
+create_atoms 1 single 0 0 0
+set group all diameter 0.004
+pair_style cdem law direct
+pair_coeff * * 1e8 2.5e7 0.215 0.215 27
+fix move all cdem/integrate
+run 0
+"""
+
+
+def test_atoms_without_ids(tmp_path: Path, ranks: int) -> None:
+    check(NO_IDS, tmp_path, r"Pair style cdem: atom_modify id no must be yes", ranks)
 
 
 @pytest.mark.parametrize(("name", "ranks"), [(n, 1) for n in CASES] + [(n, 2) for n in CASES if n in ON_TWO_RANKS])
