@@ -26,6 +26,7 @@ template <int W> struct Raw {
 };
 using Two = Raw<2>::type;
 using Four = Raw<4>::type;
+using Eight = Raw<8>::type;
 
 template <class R> [[gnu::always_inline]] inline R load_raw(const double *from) {
   R r;
