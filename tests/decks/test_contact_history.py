@@ -20,7 +20,6 @@ dump all grains custom 1 path.dump id x y vx vy omegaz fx fy tqz
 dump_modify all format float %.17g
 run ${steps}
 """
-ANGLES = np.linspace(0, 2 * np.pi, 1200, endpoint=False)
 STATE = ("x", "y", "vx", "vy", "omegaz", "fx", "fy", "tqz")
 
 
@@ -137,15 +136,15 @@ def test_history_follows_new_ids(tmp_path: Path, law: str, ranks: int, change: s
         assert motion(new) == pytest.approx(motion(kept)[:, same], rel=1e-8)
 
 
-@pytest.mark.parametrize("ranks", [2])
-def test_a_grain_with_many_contacts_moves_on(tmp_path: Path, law: str, ranks: int) -> None:
+def test_a_grain_with_many_contacts_moves_on(tmp_path: Path, law: str) -> None:
     """A grain in contact with 1200 others comes from a restart file and goes to the other rank at once. (If LAMMPS's
     buffer for it is too small, only tests/sanitize is sure to find that.)"""
     large, small = Disc(-0.02, 0, 0.02, omega=10), 2.6e-5
-    x, y = (large.radius + small - 1e-7) * np.array([np.cos(ANGLES), np.sin(ANGLES)])
+    angles = np.linspace(0, 2 * np.pi, 1200, endpoint=False)
+    x, y = (large.radius + small - 1e-7) * np.array([np.cos(angles), np.sin(angles)])
     discs = [large, *(Disc(-0.02 + dx, dy, 2 * small, type=2) for dx, dy in zip(x, y, strict=True))]
-    options = {"discs": discs, "law": law, "ranks": ranks, "skin": 1e-4, "kn": 1e6, "ks": 2.5e5}
-    options["box"] = (-0.04, 0.04, -0.04, 0.04)
+    box = (-0.04, 0.04, -0.04, 0.04)
+    options = {"discs": discs, "box": box, "law": law, "ranks": 2, "skin": 1e-4, "kn": 1e6, "ks": 2.5e5}
     stays = run(RENUMBERED.format(change=FROM_FILE), tmp_path / "stays", **options).end
     moves = run(RENUMBERED.format(change=FROM_FILE + "balance 1.0 x 0.1"), tmp_path / "moves", **options).end
     assert abs(stays["tqz"][0]) > 1e-5, "no friction"
