@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "fix_cdem_history.h"
+#include "contacts/fix_cdem_history.h"
 
+#include "contacts/pair_cdem.h"
 #include "core/grain_shape.h"
-#include "pair_cdem.h"
-
-#include "compat.h"
+#include "host/compat.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -18,8 +17,12 @@
 using namespace LAMMPS_NS;
 
 namespace {
-constexpr int PER_GRAIN = 2, PER_CONTACT = 5; // numbers that are packed
+constexpr int PER_CONTACT = 5;
 constexpr tagint NOBODY = 0;
+
+// Numbers that a grain with so many contacts is packed into.
+constexpr int packed_size(int contacts) { return 2 + PER_CONTACT * contacts; }
+
 static_assert(cdem::GrainShape::MOST_DISCS <= SHRT_MAX); // what a Contact has room for
 } // namespace
 
@@ -52,7 +55,7 @@ void FixCDEMHistory::make_room(const std::vector<int> &count_of, const std::vect
   contacts.resize(next);
 }
 
-void FixCDEMHistory::expect_at_most(int most) { maxexchange = PER_GRAIN + PER_CONTACT * most; }
+void FixCDEMHistory::expect_at_most(int most) { maxexchange = packed_size(most); }
 
 const FixCDEMHistory::Contact *FixCDEMHistory::find_contact(int i, tagint partner, int own_disc, int other_disc) const {
   for (int k = first[i]; k < first[i] + count[i]; k++) {
@@ -115,7 +118,7 @@ void FixCDEMHistory::setup_pre_neighbor() {
 
 int FixCDEMHistory::pack_forward_comm(int n, int *list, double *buf, int, int *) {
   for (int k = 0; k < n; k++)
-    buf[k] = ubuf(count[list[k]] > 0 ? owner[list[k]] : NOBODY).d;
+    buf[k] = ubuf(owner[list[k]]).d;
   return n;
 }
 
@@ -177,7 +180,7 @@ int FixCDEMHistory::unpack(int i, const double *buf) {
   const double *in = buf;
   count[i] = int(*in++);
   owner[i] = (tagint)ubuf(*in++).i;
-  maxexchange = std::max(maxexchange, PER_GRAIN + PER_CONTACT * count[i]);
+  maxexchange = std::max(maxexchange, packed_size(count[i]));
   first[i] = int(contacts.size());
   for (int k = 0; k < count[i]; k++, in += PER_CONTACT)
     contacts.push_back({(tagint)ubuf(in[0]).i, short(in[1]), short(in[2]), in[3], in[4]});
@@ -204,17 +207,17 @@ void FixCDEMHistory::unpack_restart(int i, int nth) {
   const double *block = atom->extra[i];
   for (int skip = 0; skip < nth; skip++)
     block += int(*block);
-  if (int(block[0]) != 1 + PER_GRAIN + PER_CONTACT * int(block[1]))
+  if (int(block[0]) != 1 + packed_size(int(block[1])))
     error->one(FLERR, "Pair style cdem: the restart file is of another version of this style: contacts of atom {}",
                atom->tag[i]);
   unpack(i, block + 1);
 }
 
-int FixCDEMHistory::size_restart(int i) { return 1 + PER_GRAIN + PER_CONTACT * count[i]; }
+int FixCDEMHistory::size_restart(int i) { return 1 + packed_size(count[i]); }
 
 int FixCDEMHistory::maxsize_restart() {
   const int n = count.empty() ? 0 : *std::max_element(count.begin(), count.begin() + atom->nlocal);
   int most;
   MPI_Allreduce(&n, &most, 1, MPI_INT, MPI_MAX, world);
-  return 1 + PER_GRAIN + PER_CONTACT * most;
+  return 1 + packed_size(most);
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "pair_cdem.h"
+#include "contacts/pair_cdem.h"
 
-#include "compat.h"
+#include "contacts/fix_cdem_history.h"
 #include "core/list_skin.h"
-#include "fix_cdem_audit.h"
-#include "fix_cdem_history.h"
-#include "fix_cdem_integrate.h"
-#include "fix_cdem_shape.h"
+#include "grains/fix_cdem_audit.h"
+#include "grains/fix_cdem_shape.h"
+#include "host/compat.h"
+#include "motion/fix_cdem_integrate.h"
 
 #include "atom.h"
 #include "atom_vec.h"
@@ -154,6 +154,9 @@ void PairCDEM::check_setting() const {
                "Pair style cdem: the skin of the neighbour list is {}, must be positive: a contact acts on in the "
                "step in which it opens",
                neighbor->skin);
+}
+
+void PairCDEM::check_atoms() const {
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->radius[i] > 0))
       error->one(FLERR, "Pair style cdem: atom {} has radius {}, must be positive", atom->tag[i], atom->radius[i]);
@@ -169,6 +172,7 @@ void PairCDEM::init_style() {
   integrate = FixCDEMIntegrate::find(lmp);
   audit = FixCDEMAudit::find(lmp);
   check_setting();
+  check_atoms();
   rows.init(integrate, cdem::kernels({law, limit_damping}, instructions));
   list_speed = -1;
   list_of_run = false;

@@ -21,7 +21,7 @@
 
 #include "core/disc_pairs.h"
 #include "core/force_kernel.h"
-#include "grain_rows.h"
+#include "grains/grain_rows.h"
 
 #include "pair.h"
 
@@ -113,6 +113,7 @@ public:
 private:
   void allocate();
   void check_setting() const;
+  void check_atoms() const;
   void check_periods() const;
 
   void build_list();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The program lmp_cdem: LAMMPS with its own command line, and the styles of Shearbox there from the start.
-#include "engine.h"
-#include "styles.h"
+#include "entry/styles.h"
+#include "host/version_check.h"
 
 #include "comm.h"
 #include "error.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // cdemplugin.so: checks the LAMMPS that loads it, then takes the styles from cdemstyles.so beside it.
-#include "engine.h"
-#include "styles.h"
+#include "entry/styles.h"
+#include "host/version_check.h"
 
 #include "lammpsplugin.h"
 #include "library.h"

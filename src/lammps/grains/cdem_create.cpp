@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cdem_create.h"
+#include "grains/cdem_create.h"
 
 #include "core/fill.h"
-#include "fix_cdem_shape.h"
+#include "grains/fix_cdem_shape.h"
 
 #include "atom.h"
 #include "atom_vec.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "fix_cdem_audit.h"
+#include "grains/fix_cdem_audit.h"
 
-#include "compute_cdem_energy.h"
-#include "find_fix.h"
+#include "host/find_fix.h"
+#include "output/compute_cdem_energy.h"
 
 #include "comm.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "grain_rows.h"
+#include "grains/grain_rows.h"
 
-#include "fix_cdem_integrate.h"
-#include "fix_cdem_shape.h"
+#include "grains/fix_cdem_shape.h"
+#include "motion/fix_cdem_integrate.h"
 
 #include "atom.h"
 #include "domain.h"

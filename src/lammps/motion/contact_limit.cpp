@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "contact_limit.h"
+#include "motion/contact_limit.h"
 
-#include "compat.h"
+#include "contacts/pair_cdem.h"
 #include "core/contact_network.h"
-#include "fix_cdem_integrate.h"
-#include "pair_cdem.h"
+#include "host/compat.h"
+#include "motion/fix_cdem_integrate.h"
 
 #include "atom.h"
 #include "force.h"

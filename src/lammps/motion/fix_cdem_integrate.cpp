@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "fix_cdem_integrate.h"
+#include "motion/fix_cdem_integrate.h"
 
+#include "contacts/pair_cdem.h"
 #include "core/stability.h"
-#include "find_fix.h"
-#include "fix_cdem_audit.h"
-#include "fix_cdem_shape.h"
-#include "pair_cdem.h"
+#include "grains/fix_cdem_audit.h"
+#include "grains/fix_cdem_shape.h"
+#include "host/find_fix.h"
 
 #include "atom.h"
 #include "comm.h"

@@ -36,9 +36,9 @@
 // A run that goes on, also after a restart, starts from the stored acceleration and so continues to the same bits.
 #pragma once
 
-#include "contact_limit.h"
 #include "core/disc_motion.h"
-#include "guard.h"
+#include "motion/contact_limit.h"
+#include "motion/guard.h"
 
 #include "atom.h"
 #include "fix.h"

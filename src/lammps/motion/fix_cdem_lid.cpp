@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "fix_cdem_lid.h"
+#include "motion/fix_cdem_lid.h"
 
-#include "pair_cdem.h"
+#include "contacts/pair_cdem.h"
 
 #include "atom.h"
 #include "comm.h"

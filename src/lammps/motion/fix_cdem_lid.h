@@ -17,7 +17,7 @@
 // Restarts continue to the same bits.
 #pragma once
 
-#include "wall_body.h"
+#include "motion/wall_body.h"
 
 #include <string>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "fix_cdem_move.h"
+#include "motion/fix_cdem_move.h"
 
 #include "comm.h"
 #include "error.h"

@@ -17,7 +17,7 @@
 // same bits.
 #pragma once
 
-#include "wall_body.h"
+#include "motion/wall_body.h"
 
 namespace LAMMPS_NS {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "guard.h"
+#include "motion/guard.h"
 
-#include "fix_cdem_integrate.h"
+#include "motion/fix_cdem_integrate.h"
 
 #include "atom.h"
 #include "comm.h"

@@ -7,7 +7,7 @@
 // weak instability ends before, when contacts open and close in turn; that is for ContactLimit to find.
 #pragma once
 
-#include "rescue.h"
+#include "motion/rescue.h"
 
 #include "pointers.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "rescue.h"
+#include "motion/rescue.h"
 
-#include "pair_cdem.h"
+#include "contacts/pair_cdem.h"
 
 #include "atom.h"
 #include "atom_vec.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "verlet_cdem.h"
+#include "motion/verlet_cdem.h"
 
-#include "fix_cdem_integrate.h"
-#include "fix_cdem_lid.h"
-#include "fix_cdem_trm.h"
-#include "pair_cdem.h"
+#include "contacts/pair_cdem.h"
+#include "motion/fix_cdem_integrate.h"
+#include "motion/fix_cdem_lid.h"
+#include "output/fix_cdem_trm.h"
 
 #include "atom.h"
 #include "comm.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "wall_body.h"
+#include "motion/wall_body.h"
 
 #include "core/exact_sum.h"
-#include "fix_cdem_audit.h"
-#include "fix_cdem_integrate.h"
+#include "grains/fix_cdem_audit.h"
+#include "motion/fix_cdem_integrate.h"
 
 #include "atom.h"
 #include "comm.h"

@@ -5,7 +5,7 @@
 // whole. A disc belongs to one such body at most, and never to the grains that fix cdem/integrate moves.
 #pragma once
 
-#include "grain_rows.h"
+#include "grains/grain_rows.h"
 
 #include "fix.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "compute_cdem_contacts.h"
+#include "output/compute_cdem_contacts.h"
 
 #include "atom.h"
 #include "error.h"

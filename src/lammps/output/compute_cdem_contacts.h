@@ -20,8 +20,8 @@
 //               dump_modify d format float %.9g     # ids beyond 999999 want more than the default %g
 #pragma once
 
-#include "local_array.h"
-#include "pair_cdem.h"
+#include "contacts/pair_cdem.h"
+#include "host/local_array.h"
 
 #include "compute.h"
 

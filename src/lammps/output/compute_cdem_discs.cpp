@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "compute_cdem_discs.h"
+#include "output/compute_cdem_discs.h"
 
-#include "fix_cdem_integrate.h"
-#include "pair_cdem.h"
+#include "contacts/pair_cdem.h"
+#include "motion/fix_cdem_integrate.h"
 
 #include "atom.h"
 #include "error.h"

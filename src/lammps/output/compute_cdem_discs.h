@@ -17,7 +17,7 @@
 //               dump_modify d format float %.9g
 #pragma once
 
-#include "local_array.h"
+#include "host/local_array.h"
 
 #include "compute.h"
 

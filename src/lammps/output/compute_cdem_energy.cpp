@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "compute_cdem_energy.h"
+#include "output/compute_cdem_energy.h"
 
-#include "compat.h"
-#include "fix_cdem_audit.h"
-#include "fix_cdem_integrate.h"
-#include "fix_cdem_shape.h"
-#include "pair_cdem.h"
+#include "contacts/pair_cdem.h"
+#include "grains/fix_cdem_audit.h"
+#include "grains/fix_cdem_shape.h"
+#include "host/compat.h"
+#include "motion/fix_cdem_integrate.h"
 
 #include "atom.h"
 #include "domain.h"

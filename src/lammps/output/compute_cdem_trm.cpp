@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "compute_cdem_trm.h"
+#include "output/compute_cdem_trm.h"
 
-#include "compat.h"
 #include "core/exact_sum.h"
-#include "fix_cdem_integrate.h"
-#include "fix_cdem_trm.h"
+#include "host/compat.h"
+#include "motion/fix_cdem_integrate.h"
+#include "output/fix_cdem_trm.h"
 
 #include "atom.h"
 #include "error.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "fix_cdem_trm.h"
+#include "output/fix_cdem_trm.h"
 
-#include "grain_rows.h"
+#include "grains/grain_rows.h"
 
 #include "atom.h"
 #include "update.h"
