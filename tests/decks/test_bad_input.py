@@ -91,7 +91,7 @@ CASES: dict[str, tuple[str, str, str]] = {
     "time step zero": ("timestep      2e-7", "timestep      0", r"Fix cdem/integrate: the time step 0 must be positive"),
     "time step negative": ("timestep      2e-7", "timestep      -2e-7", r"Fix cdem/integrate: the time step -2e-07 must be positive"),
     "automatic dt without grains": ("grains cdem/integrate dt check", "nobody cdem/integrate dt auto", r"Fix cdem/integrate.*no grain"),
-    "rescue without a file": ("dt check", "dt check rescue", r"Fix cdem/integrate: rescue: a file or none must follow"),
+    "rescue without a file": ("dt check", "dt check rescue", r"Fix cdem/integrate: rescue: a file or none is missing"),
     "an argument of the limit": ("timestep", "compute limit all cdem/limit fast\ntimestep", r"Compute cdem/limit: unknown argument fast"),
     "the limit of a group": ("timestep", "compute limit grains cdem/limit\ntimestep", r"Compute cdem/limit limit: the group must be all"),
     "a group that is not there": ("move grains", "move sand", r"sand"),

@@ -104,7 +104,7 @@ def test_a_fix_that_acts_in_every_step_is_named(tmp_path: Path) -> None:
         "no-pair": ("pair_style zero 0.01\npair_coeff * *\nrun 0", "Run style verlet/cdem needs pair_style cdem"),
         "no-integrate": ("run 0", "needs a fix cdem/integrate"),
         "argument": (MOVE + "run_style verlet/cdem fast\nrun 0", "Run style verlet/cdem: unknown argument fast"),
-        "gravity-one": ("fix move grains cdem/integrate gravity 1", "Fix cdem/integrate: gravity has too few values"),
+        "gravity-one": ("fix move grains cdem/integrate gravity 1", "Fix cdem/integrate: gravity has no value"),
         "gravity-word": ("fix move grains cdem/integrate gravity 0 down", "Expected floating point"),
         "drag-zero": ("fix move grains cdem/integrate drag 0", "Fix cdem/integrate: drag 0: the time must be positive"),
         "drag-word": ("fix move grains cdem/integrate drag much", "Expected floating point"),

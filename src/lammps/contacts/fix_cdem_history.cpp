@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contacts/fix_cdem_history.h"
 
-#include "contacts/pair_cdem.h"
 #include "core/grain_shape.h"
 #include "host/compat.h"
+#include "host/find_fix.h"
+#include "host/packed_state.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -25,6 +26,8 @@ constexpr int packed_size(int contacts) { return 2 + PER_CONTACT * contacts; }
 
 static_assert(cdem::GrainShape::MOST_DISCS <= SHRT_MAX); // what a Contact has room for
 } // namespace
+
+FixCDEMHistory *FixCDEMHistory::find(LAMMPS *lmp) { return Shearbox::find_fix<FixCDEMHistory>(lmp); }
 
 FixCDEMHistory::FixCDEMHistory(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) {
   restart_global = 1;
@@ -68,14 +71,19 @@ const FixCDEMHistory::Contact *FixCDEMHistory::find_contact(int i, tagint partne
 
 // The next rebuild, and the next run, may find other grains, in another order: from here on the history is with the
 // grains.
-void FixCDEMHistory::take() {
-  if (pair)
-    pair->release_history();
+void FixCDEMHistory::take_from_list() {
+  if (list)
+    list->move_history_to_grains();
+}
+
+void FixCDEMHistory::copy_from_list() {
+  if (list)
+    list->copy_history_to_grains();
 }
 
 void FixCDEMHistory::pre_exchange() {
-  if (pair)
-    pair->leave_list();
+  if (list)
+    list->close_list();
   agree_on_room();
 }
 
@@ -87,7 +95,7 @@ void FixCDEMHistory::agree_on_room() {
   MPI_Allreduce(&mine, &maxexchange, 1, MPI_INT, MPI_MAX, world);
 }
 
-void FixCDEMHistory::post_run() { take(); }
+void FixCDEMHistory::post_run() { take_from_list(); }
 
 bool FixCDEMHistory::has_new_ids() const {
   int mine = 0, all;
@@ -129,8 +137,7 @@ void FixCDEMHistory::unpack_forward_comm(int n, int first_ghost, double *buf) {
 
 // Called before the grains are packed. LAMMPS expects a global block: an empty one.
 void FixCDEMHistory::write_restart(FILE *fp) {
-  if (pair)
-    pair->store_history();
+  copy_from_list();
   const int size = 0;
   if (comm->me == 0)
     fwrite(&size, sizeof(int), 1, fp);
@@ -150,7 +157,7 @@ void FixCDEMHistory::grow_arrays(int nmax) {
 // A fix that comes before this one may move grains to other ranks (balance) or take some away (evaporate) when its own
 // pre_exchange() is called: these are the first words that we hear of it.
 void FixCDEMHistory::copy_arrays(int i, int j, int) {
-  take();
+  take_from_list();
   first[j] = first[i];
   count[j] = count[i];
   owner[j] = owner[i];
@@ -188,12 +195,12 @@ int FixCDEMHistory::unpack(int i, const double *buf) {
 }
 
 int FixCDEMHistory::pack_exchange(int i, double *buf) {
-  take();
+  take_from_list();
   return pack(i, buf);
 }
 
 int FixCDEMHistory::unpack_exchange(int i, double *buf) {
-  take();
+  take_from_list();
   return unpack(i, buf);
 }
 
@@ -204,9 +211,7 @@ int FixCDEMHistory::pack_restart(int i, double *buf) {
 }
 
 void FixCDEMHistory::unpack_restart(int i, int nth) {
-  const double *block = atom->extra[i];
-  for (int skip = 0; skip < nth; skip++)
-    block += int(*block);
+  const double *const block = Shearbox::block_of_atom(atom->extra[i], nth);
   if (int(block[0]) != 1 + packed_size(int(block[1])))
     error->one(FLERR, "Pair style cdem: the restart file is of another version of this style: contacts of atom {}",
                atom->tag[i]);

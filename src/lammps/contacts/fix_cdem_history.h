@@ -5,15 +5,27 @@
 // too): the history follows.
 #pragma once
 
+#include "host/glides.h"
+
 #include "fix.h"
 
 #include <vector>
 
 namespace LAMMPS_NS {
 
-class PairCDEM;
+// Where contacts and their histories are between rebuilds.
+class ContactList {
+public:
+  virtual ~ContactList() = default;
+  // To the grains, by make_room() and add(), of what the list has.
+  virtual void copy_history_to_grains() = 0;
+  // The same; the list is no longer the place where it is kept.
+  virtual void move_history_to_grains() = 0;
+  // The same, once the atoms have moved on: the list is to be rebuilt.
+  virtual void close_list() = 0;
+};
 
-class FixCDEMHistory : public Fix {
+class FixCDEMHistory : public Fix, public Glides {
 public:
   static constexpr const char *ID = "CDEM_HISTORY";
 
@@ -24,6 +36,9 @@ public:
     short own_disc, other_disc;
     double es, en;
   };
+
+  // The fix of this style, or null.
+  static FixCDEMHistory *find(LAMMPS *);
 
   FixCDEMHistory(LAMMPS *, int, char **);
   ~FixCDEMHistory() override;
@@ -54,10 +69,13 @@ public:
   int size_restart(int) override;
   int maxsize_restart() override;
 
-  PairCDEM *pair = nullptr;
+  // From the list, if that has it: a copy, or all from now on.
+  void copy_from_list();
+  void take_from_list();
+
+  ContactList *list = nullptr;
 
 private:
-  void take(); // from the pair style's list, if that has it
   int pack(int i, double *buf) const;
   int unpack(int i, const double *buf);
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contacts/pair_cdem.h"
 
-#include "contacts/fix_cdem_history.h"
 #include "core/list_skin.h"
 #include "grains/fix_cdem_audit.h"
-#include "grains/fix_cdem_shape.h"
+#include "grains/fix_cdem_grains.h"
 #include "host/compat.h"
-#include "motion/fix_cdem_integrate.h"
 
 #include "atom.h"
 #include "atom_vec.h"
@@ -145,7 +143,7 @@ void PairCDEM::check_setting() const {
     error->all(FLERR, "Pair style cdem: atom_modify id no must be yes: contacts are remembered by the ids of grains");
   if (!comm->ghost_velocity)
     error->all(FLERR, "Pair style cdem needs 'comm_modify vel yes'");
-  if (!integrate)
+  if (!grains || !grains->are_moved())
     error->all(FLERR, "Pair style cdem needs a fix cdem/integrate: atoms outside its group are walls");
   if (update->whichflag == 2)
     error->all(FLERR, "Pair style cdem: minimize has no steps of time to follow the contacts in; use run, with drag");
@@ -169,18 +167,18 @@ void PairCDEM::check_atoms() const {
 }
 
 void PairCDEM::init_style() {
-  integrate = FixCDEMIntegrate::find(lmp);
+  grains = FixCDEMGrains::find(lmp);
   audit = FixCDEMAudit::find(lmp);
   check_setting();
   check_atoms();
-  rows.init(integrate, cdem::kernels({law, limit_damping}, instructions));
+  rows.init(grains, cdem::kernels({law, limit_damping}, instructions));
   list_speed = -1;
   list_of_run = false;
   Shearbox::request_half_size_list(lmp, this, instance_me);
 
   if (!history)
     history = static_cast<FixCDEMHistory *>(modify->add_fix(std::string(FixCDEMHistory::ID) + " all cdem/history"));
-  history->pair = this;
+  history->list = this;
 
   std::vector<double> mine(atom->ntypes + 1, 0.0);
   for (int i = 0; i < atom->nlocal; i++)
@@ -214,7 +212,7 @@ void PairCDEM::compute(int eflag, int vflag) {
     rows.map();
 
   // During a step, v and omega are those of the half step; at setup they are those of the full step.
-  rows.fill(0, atom->nlocal, update->setupflag ? 0 : integrate->step_rule().forward);
+  rows.fill(0, atom->nlocal, update->setupflag ? 0 : grains->step_rule().forward);
   exchange_ghosts();
   if (rebuilt) {
     neighbours_built_at.resize(atom->nlocal);
@@ -333,7 +331,7 @@ void PairCDEM::refresh_list(double moved) {
   timer->stamp(Timer::PAIR);
   list_speed = (0.5 * list_skin - list_room) / double(std::max<bigint>(update->ntimestep - list_step, 1));
   finish_step_in_books();
-  store_history();
+  copy_history_to_grains();
   build_list();
   timer->stamp(Timer::NEIGH);
 }
@@ -362,7 +360,7 @@ void PairCDEM::build_list() {
   slots.build(
       // The order of all sums: by the id of the grain, then by the disc.
       pairs, row_starts, [this](int p) { return std::pair(atom->tag[rows.grain(p)], rows.disc(p)); },
-      [this](int p) { return !integrate->is_free(rows.grain(p)); });
+      [this](int p) { return !grains->is_free(rows.grain(p)); });
   history->expect_at_most(most_pairs());
   constexpr double SECOND_CACHE = 2e6; // of a core, bytes
   fetches_ahead = pairs.bytes() + rows.bytes() + slots.bytes() > SECOND_CACHE;
@@ -423,7 +421,7 @@ void PairCDEM::divide_into_blocks() {
 template <class Visit> void PairCDEM::for_each_candidate(int i, Visit visit) const {
   for (int jj = 0; jj < list->numneigh[i]; jj++) {
     const int j = list->firstneigh[i][jj] & NEIGHMASK;
-    if (!integrate->is_free(i) && !integrate->is_free(j))
+    if (!grains->is_free(i) && !grains->is_free(j))
       continue;
     for (int p = rows.rows_of(i); p < rows.rows_of(i + 1); p++)
       for (int q = rows.rows_of(j); q < rows.rows_of(j + 1); q++) {
@@ -476,7 +474,7 @@ void PairCDEM::refuse_same_centre(int p, int q) const {
 }
 
 void PairCDEM::set_constants() {
-  const cdem::StepRule step = integrate->step_rule();
+  const cdem::StepRule step = grains->step_rule();
   for (const auto &[material, begin, end] : pairs.segments) {
     const double of_steps = cdem::mass_of_steps(material, step.dt, 2 * step.forward / step.dt);
     for (int k = begin; k < end; k++) {
@@ -495,7 +493,7 @@ void PairCDEM::renew_constants() {
 double PairCDEM::mass(int k) const {
   const int i = rows.grain(pairs.a(k)), j = rows.grain(pairs.b(k));
   const double mi = atom->rmass[i], mj = atom->rmass[j];
-  return !integrate->is_free(j) ? mi : !integrate->is_free(i) ? mj : mi * mj / (mi + mj);
+  return !grains->is_free(j) ? mi : !grains->is_free(i) ? mj : mi * mj / (mi + mj);
 }
 
 void PairCDEM::recall_history(int k) {
@@ -555,13 +553,13 @@ PairCDEM::SpringEnergy PairCDEM::spring_energy() const {
   return sum;
 }
 
-void PairCDEM::leave_list() {
+void PairCDEM::close_list() {
   if (audit && history_in_list) {
     rows.fill(0, atom->nlocal, 0);
     exchange_ghosts();
     finish_step_in_books();
   }
-  release_history();
+  move_history_to_grains();
 }
 
 // The rows have moved, and a new list won't know the last forces of the dashpots. Half of them acted in this step; the
@@ -655,7 +653,7 @@ double PairCDEM::single(int i, int j, int itype, int jtype, double, double, doub
 }
 
 // Grains may have come and gone since the list was built: only what was noted then is of use here.
-void PairCDEM::store_history() {
+void PairCDEM::copy_history_to_grains() {
   if (!history_in_list)
     return;
   book_losses();
@@ -678,8 +676,8 @@ void PairCDEM::store_history() {
   for_each_memory([this](int i, const auto &contact) { history->add(i, contact); });
 }
 
-void PairCDEM::release_history() {
-  store_history();
+void PairCDEM::move_history_to_grains() {
+  copy_history_to_grains();
   history_in_list = false;
 }
 

@@ -19,6 +19,7 @@
 // single() and contacts() read the last step and change nothing. eng_vdwl is the elastic energy of the springs.
 #pragma once
 
+#include "contacts/fix_cdem_history.h"
 #include "core/disc_pairs.h"
 #include "core/force_kernel.h"
 #include "grains/grain_rows.h"
@@ -31,10 +32,9 @@
 namespace LAMMPS_NS {
 
 class FixCDEMAudit;
-class FixCDEMHistory;
-class FixCDEMIntegrate;
+class FixCDEMGrains;
 
-class PairCDEM : public Pair {
+class PairCDEM : public Pair, public ContactList {
 public:
   // A contact of the last step. t = n turned by +90 degrees; the force on disc a is fn n + ft t. One that opened within
   // the step is still there, with what is left of its forces and an overlap below zero.
@@ -92,9 +92,9 @@ public:
   // To be called when the time step has changed: the dashpots go with it.
   void renew_constants();
 
-  void store_history();   // from the list to the grains
-  void leave_list();      // the same, once the atoms have moved on: the list is to be rebuilt
-  void release_history(); // the same, and the list is no longer the place where it is kept
+  void copy_history_to_grains() override;
+  void move_history_to_grains() override;
+  void close_list() override;
 
   // What a step consists of, for run style cdem, which steps the rows alone while nothing else asks for the atoms.
   GrainRows rows;
@@ -144,7 +144,7 @@ private:
   std::vector<std::vector<cdem::Material>> materials; // by the types of the two atoms
   std::vector<double> largest_radius;                 // by type
 
-  FixCDEMIntegrate *integrate = nullptr;
+  FixCDEMGrains *grains = nullptr;
   FixCDEMHistory *history = nullptr;
   FixCDEMAudit *audit = nullptr;
   bool booking = false; // whether the list was built for an audit

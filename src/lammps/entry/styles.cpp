@@ -8,6 +8,7 @@
 #include "fix.h"
 #include "grains/cdem_create.h"
 #include "grains/fix_cdem_audit.h"
+#include "grains/fix_cdem_grains.h"
 #include "grains/fix_cdem_shape.h"
 #include "motion/fix_cdem_integrate.h"
 #include "motion/fix_cdem_lid.h"
@@ -62,6 +63,7 @@ const std::vector<Shearbox::Style> &Shearbox::styles() {
   static const std::vector<Style> all = {
       pair<PairCDEM>("cdem"),
       fix<FixCDEMAudit>("cdem/audit"),
+      fix<FixCDEMGrains>("cdem/grains"),
       fix<FixCDEMHistory>("cdem/history"),
       fix<FixCDEMIntegrate>("cdem/integrate"),
       fix<FixCDEMShape>("cdem/shape"),

@@ -2,15 +2,14 @@
 #include "grains/fix_cdem_audit.h"
 
 #include "host/find_fix.h"
-#include "output/compute_cdem_energy.h"
+#include "host/packed_state.h"
 
 #include "comm.h"
-
-#include <cstring>
 
 using namespace LAMMPS_NS;
 
 namespace {
+constexpr int VERSION = 1; // of what restart files keep
 struct Saved {
   FixCDEMAudit::Books books;
   FixCDEMAudit::Opening opening;
@@ -23,8 +22,8 @@ FixCDEMAudit *FixCDEMAudit::find(LAMMPS *lmp) { return Shearbox::find_fix<FixCDE
 FixCDEMAudit::FixCDEMAudit(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) { restart_global = 1; }
 
 void FixCDEMAudit::setup(int) {
-  if (compute)
-    compute->open_books();
+  if (opener)
+    opener->open_books();
 }
 
 FixCDEMAudit::Books FixCDEMAudit::all() const {
@@ -37,16 +36,12 @@ FixCDEMAudit::Books FixCDEMAudit::all() const {
 // The pair style has put its columns into the books by now: fix cdem/history, made before this one, had it do so.
 void FixCDEMAudit::write_restart(FILE *fp) {
   const Saved saved{all(), opening, double(open)};
-  const int size = sizeof(saved);
-  if (comm->me != 0)
-    return;
-  fwrite(&size, sizeof(size), 1, fp);
-  fwrite(&saved, sizeof(saved), 1, fp);
+  if (comm->me == 0)
+    Shearbox::write_state(fp, VERSION, saved);
 }
 
 void FixCDEMAudit::restart(char *buf) {
-  Saved saved;
-  memcpy(&saved, buf, sizeof(saved));
+  const auto saved = Shearbox::read_state<Saved>(lmp, style, VERSION, buf);
   opening = saved.opening;
   open = saved.open != 0;
   if (comm->me == 0)

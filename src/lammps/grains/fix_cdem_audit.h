@@ -4,14 +4,21 @@
 // and dashpots, fix cdem/integrate the drag, fixes cdem/lid and cdem/move the work of their walls.
 #pragma once
 
+#include "host/glides.h"
+
 #include "fix.h"
 
 namespace LAMMPS_NS {
 
-class ComputeCDEMEnergy;
-
-class FixCDEMAudit : public Fix {
+class FixCDEMAudit : public Fix, public Glides {
 public:
+  // Who knows all energy there is, and opens the books as the first run begins.
+  class Opener {
+  public:
+    virtual ~Opener() = default;
+    virtual void open_books() = 0; // unless they are open
+  };
+
   static constexpr const char *ID = "CDEM_AUDIT";
 
   // J, this rank's share since the books were opened. The work of walls is that on the grains.
@@ -35,7 +42,7 @@ public:
 
   Books all() const; // of all ranks
 
-  ComputeCDEMEnergy *compute = nullptr;
+  Opener *opener = nullptr;
   Books books;
   Opening opening;
   bool open = false;

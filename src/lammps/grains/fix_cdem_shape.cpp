@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "grains/fix_cdem_shape.h"
 
-#include "motion/fix_cdem_integrate.h"
+#include "grains/fix_cdem_grains.h"
+#include "host/find_fix.h"
+#include "host/packed_state.h"
 
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
-#include "modify.h"
 #include "utils.h"
 
 #include <algorithm>
@@ -22,12 +23,11 @@
 using namespace LAMMPS_NS;
 using Member = cdem::GrainShape::Member;
 
-FixCDEMShape *FixCDEMShape::find(LAMMPS *lmp) {
-  for (int i = 0; i < lmp->modify->nfix; i++)
-    if (auto *fix = dynamic_cast<FixCDEMShape *>(lmp->modify->fix[i]))
-      return fix;
-  return nullptr;
+namespace {
+constexpr int VERSION = 1; // of what restart files keep
 }
+
+FixCDEMShape *FixCDEMShape::find(LAMMPS *lmp) { return Shearbox::find_fix<FixCDEMShape>(lmp); }
 
 const cdem::GrainShape &FixCDEMShape::shape(LAMMPS *lmp, int type) {
   static const cdem::GrainShape disc = cdem::GrainShape::single();
@@ -162,24 +162,21 @@ void FixCDEMShape::set_mass() const {
 }
 
 void FixCDEMShape::orient() const {
-  FixCDEMIntegrate *const integrate = FixCDEMIntegrate::find(lmp);
-  if (!integrate)
+  FixCDEMGrains *const grains = FixCDEMGrains::find(lmp);
+  if (!grains)
     error->all(FLERR, "Fix cdem/shape: orient needs a fix cdem/integrate, which holds the angles");
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit))
       continue;
     std::seed_seq key{seed, int(atom->tag[i])};
     std::mt19937_64 random(key);
-    integrate->state[i][FixCDEMIntegrate::ANGLE] = 2 * M_PI * std::ldexp(double(random() >> 11), -53);
+    grains->angle(i) = 2 * M_PI * std::ldexp(double(random() >> 11), -53);
   }
 }
 
 void FixCDEMShape::write_restart(FILE *fp) {
-  if (comm->me != 0)
-    return;
-  const int size = sizeof(oriented);
-  fwrite(&size, sizeof(int), 1, fp);
-  fwrite(&oriented, sizeof(oriented), 1, fp);
+  if (comm->me == 0)
+    Shearbox::write_state(fp, VERSION, oriented);
 }
 
-void FixCDEMShape::restart(char *buf) { memcpy(&oriented, buf, sizeof(oriented)); }
+void FixCDEMShape::restart(char *buf) { oriented = Shearbox::read_state<int>(lmp, style, VERSION, buf); }

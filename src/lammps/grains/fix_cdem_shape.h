@@ -18,6 +18,7 @@
 #pragma once
 
 #include "core/grain_shape.h"
+#include "host/glides.h"
 
 #include "fix.h"
 
@@ -27,7 +28,7 @@
 
 namespace LAMMPS_NS {
 
-class FixCDEMShape : public Fix {
+class FixCDEMShape : public Fix, public Glides {
 public:
   // The fix of this style, or null.
   static FixCDEMShape *find(LAMMPS *);

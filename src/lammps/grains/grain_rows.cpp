@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "grains/grain_rows.h"
 
+#include "grains/fix_cdem_grains.h"
 #include "grains/fix_cdem_shape.h"
-#include "motion/fix_cdem_integrate.h"
 
 #include "atom.h"
 #include "domain.h"
@@ -15,8 +15,8 @@ using namespace LAMMPS_NS;
 
 using Disc = cdem::Disc<double>;
 
-void GrainRows::init(const FixCDEMIntegrate *fix, const cdem::Kernels &fastest) {
-  integrate = fix;
+void GrainRows::init(FixCDEMGrains *fix, const cdem::Kernels &fastest) {
+  states = fix;
   kernels = fastest;
   shapes.assign(1, nullptr);
   for (int type = 1; type <= atom->ntypes; type++)
@@ -57,16 +57,16 @@ void GrainRows::fill(int begin, int end, double forward) {
 // A state that is not known yet may be NaN; it is not asked for unless the velocity is carried forward.
 void GrainRows::fill_grain(int i, double forward) {
   const double *const x = atom->x[i], *const v = atom->v[i], omega = atom->omega[i][2];
-  const double *const state = integrate->state[i];
   Disc &row = grains[i];
   row = {x[0], x[1], v[0], v[1], v[0], v[1], omega, omega};
   if (forward != 0) {
-    row.vx += forward * state[FixCDEMIntegrate::AX];
-    row.vy += forward * state[FixCDEMIntegrate::AY];
-    row.omega += forward * state[FixCDEMIntegrate::ALPHA];
+    const FixCDEMGrains::Acceleration a = states->acceleration(i);
+    row.vx += forward * a.x;
+    row.vy += forward * a.y;
+    row.omega += forward * a.turn;
   }
   if (clumps)
-    bodies[i].angle = state[FixCDEMIntegrate::ANGLE];
+    bodies[i].angle = states->angle(i);
 }
 
 // The image of a grain is shifted by whole periods of the box, which may be tilted; and it moves as the box is deformed
@@ -148,8 +148,8 @@ cdem::DiscForce GrainRows::force_on(int i) {
 void GrainRows::take_bodies() {
   bodies.resize(grains.size());
   for (int i = 0; i < atom->nlocal; i++) {
-    const auto [mass, inertia] = integrate->inverse(i);
-    bodies[i] = {integrate->state[i][FixCDEMIntegrate::ANGLE], atom->rmass[i], mass, inertia};
+    const auto [mass, inertia] = states->inverse(i);
+    bodies[i] = {states->angle(i), atom->rmass[i], mass, inertia};
   }
 }
 
@@ -186,7 +186,7 @@ void GrainRows::write_back() {
     atom->v[i][0] = row.vx_half;
     atom->v[i][1] = row.vy_half;
     atom->omega[i][2] = row.omega_half;
-    integrate->state[i][FixCDEMIntegrate::ANGLE] = bodies[i].angle;
+    states->angle(i) = bodies[i].angle;
   }
 }
 

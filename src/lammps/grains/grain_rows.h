@@ -16,7 +16,7 @@
 
 namespace LAMMPS_NS {
 
-class FixCDEMIntegrate;
+class FixCDEMGrains;
 
 class GrainRows : protected Pointers {
 public:
@@ -24,7 +24,7 @@ public:
 
   explicit GrainRows(LAMMPS *lmp) : Pointers(lmp) {}
 
-  void init(const FixCDEMIntegrate *, const cdem::Kernels &);
+  void init(FixCDEMGrains *, const cdem::Kernels &);
 
   // After a rebuild: finds a place for every grain and disc.
   void map();
@@ -76,7 +76,7 @@ private:
   void expand(int begin, int end);
   cdem::ClumpColumns columns();
 
-  const FixCDEMIntegrate *integrate = nullptr;
+  FixCDEMGrains *states = nullptr;
   cdem::Kernels kernels{};
   bool clumps = false;                          // whether any type has more than one disc
   std::vector<const cdem::GrainShape *> shapes; // by type

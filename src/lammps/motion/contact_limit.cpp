@@ -3,8 +3,8 @@
 
 #include "contacts/pair_cdem.h"
 #include "core/contact_network.h"
+#include "grains/fix_cdem_grains.h"
 #include "host/compat.h"
-#include "motion/fix_cdem_integrate.h"
 
 #include "atom.h"
 #include "force.h"
@@ -19,12 +19,12 @@ namespace {
 // The contacts of the last forces, as core/contact_network.h asks for them.
 struct Packing {
   const PairCDEM &pair;
-  const FixCDEMIntegrate &integrate;
+  const FixCDEMGrains &grains;
   const Atom &atom;
 
   int own() const { return atom.nlocal; }
 
-  FixCDEMIntegrate::Inverse inverse(int i) const { return integrate.inverse(i); }
+  FixCDEMGrains::Inverse inverse(int i) const { return grains.inverse(i); }
 
   template <class Visit> void for_each_touch(int i, Visit visit) const {
     const GrainRows &rows = pair.rows;
@@ -43,17 +43,17 @@ struct Packing {
 
 } // namespace
 
-double ContactLimit::find(double enough) {
+double ContactLimit::find(double guess, double enough) {
   const auto *const pair = static_cast<PairCDEM *>(force->pair);
   weights.resize(atom->nlocal + atom->nghost);
-  auto to_ghosts = [this] { Shearbox::forward_comm(lmp, integrate); };
+  auto to_ghosts = [this] { Shearbox::forward_comm(lmp, carrier); };
   auto largest = [this](double x) {
     double most;
     MPI_Allreduce(&x, &most, 1, MPI_DOUBLE, MPI_MAX, world);
     return most;
   };
-  const Packing packing{*pair, *integrate, *atom};
-  return cdem::ContactNetwork(packing).step_limit(integrate->compute_scalar(), enough, weights, to_ghosts, largest);
+  const Packing packing{*pair, *FixCDEMGrains::find(lmp), *atom};
+  return cdem::ContactNetwork(packing).step_limit(guess, enough, weights, to_ghosts, largest);
 }
 
 int ContactLimit::pack(int n, const int *list, double *buf) const {

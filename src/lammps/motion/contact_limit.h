@@ -8,22 +8,22 @@
 
 namespace LAMMPS_NS {
 
-class FixCDEMIntegrate;
+class Fix;
 
 class ContactLimit : protected Pointers {
 public:
-  ContactLimit(LAMMPS *lmp, FixCDEMIntegrate *fix) : Pointers(lmp), integrate(fix) {}
+  // `fix` sends the weights of own grains to their ghosts, by pack() and unpack().
+  ContactLimit(LAMMPS *lmp, Fix *fix) : Pointers(lmp), carrier(fix) {}
 
-  // All ranks together, at a time when the pair style's rows are those of the last forces. The search stops before its
-  // best bound when it is `enough` (s).
-  double find(double enough);
+  // All ranks together, at a time when the pair style's rows are those of the last forces. Begins with a guess, and
+  // stops before its best bound when that is `enough` (both in s).
+  double find(double guess, double enough);
 
-  // For the fix, which sends the weights of own grains to their ghosts.
   int pack(int n, const int *list, double *buf) const;
   void unpack(int n, int first, const double *buf);
 
 private:
-  FixCDEMIntegrate *integrate;
+  Fix *carrier;
   std::vector<double> weights;
 };
 

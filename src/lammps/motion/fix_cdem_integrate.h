@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// fix ID group cdem/integrate [dt check|any|auto [MAX]|contacts [MAX]] [gravity GX GY] [drag T|none] [rescue FILE|none]
+// fix ID group cdem/integrate [dt check|any|auto [MAX]|contacts [MAX]] [gravity GX GY] [drag T|none] [inertia F]
+//                             [rescue FILE|none]
 // fix_modify ID gravity GX GY
 // fix_modify ID drag T|none
 //
@@ -16,6 +17,7 @@
 //                restart file has the same step
 //   gravity      acceleration of the grains (m/s^2, default 0 0)
 //   drag         of a medium at rest: force -m v/T on each grain, T > 0 (s, default: none); v is the half step's
+//   inertia      factor on the moment of inertia of all grains, F > 0 (default: 1), to study how rolling depends on it
 //   rescue       restart file to write when the run fails (default: rescue.restart in the current folder; none beyond
 //                100000 atoms a rank, since the copies it is written from take some 550 bytes an atom)
 //
@@ -36,14 +38,15 @@
 // A run that goes on, also after a restart, starts from the stored acceleration and so continues to the same bits.
 #pragma once
 
-#include "core/disc_motion.h"
-#include "motion/contact_limit.h"
+#include "grains/fix_cdem_grains.h"
+#include "host/glides.h"
 #include "motion/guard.h"
+#include "motion/step_choice.h"
 
-#include "atom.h"
 #include "fix.h"
 #include "update.h"
 
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -51,16 +54,15 @@ namespace LAMMPS_NS {
 class FixCDEMAudit;
 class GrainRows;
 
-class FixCDEMIntegrate : public Fix {
+class FixCDEMIntegrate : public Fix, public Glides {
 public:
-  enum Column { AX, AY, ALPHA, ANGLE, NCOLUMNS };
-
   // The fix of this style, or null.
   static FixCDEMIntegrate *find(LAMMPS *);
 
   FixCDEMIntegrate(LAMMPS *, int, char **);
   ~FixCDEMIntegrate() override;
 
+  void post_constructor() override;
   int setmask() override;
   int modify_param(int, char **) override;
   void init() override;
@@ -73,81 +75,36 @@ public:
   void final_integrate() override;
   void end_of_step() override;
   double compute_scalar() override;
-
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
   double memory_usage() override;
-  void grow_arrays(int) override;
-  void copy_arrays(int, int, int) override;
-  void set_arrays(int) override;
-  int pack_exchange(int, double *) override;
-  int unpack_exchange(int, double *) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
-  int pack_restart(int, double *) override;
-  void unpack_restart(int, int) override;
-  int size_restart(int) override;
-  int maxsize_restart() override;
 
-  bool is_free(int i) const { return atom->mask[i] & groupbit; }
-  // Whether the stored acceleration belongs to the present state; else the first step takes it from the forces.
-  bool knows_acceleration(int i) const;
-  cdem::StepRule step_rule() const;
-
-  // 1/m and 1/I of an own grain, 0 of walls.
-  struct Inverse {
-    double mass, inertia;
-  };
-  const Inverse &inverse(int i) const { return inverses[i]; }
   // Of a step made on rows: what drag takes out, if there is an audit.
   void book_drag(const GrainRows &);
   // Has the neighbour list rebuilt in the next step.
   void rebuild_next() { next_reneighbor = update->ntimestep + 1; }
+  // Stability limit of the present contacts (s), all ranks together.
+  double contact_limit() { return step.contacts.find(step.scene_limit(), INFINITY); }
 
-  // Stability limit of the present contacts (s); the search may stop at a bound that is `enough`. All ranks together.
-  double contact_limit(double enough) { return contacts.find(enough); }
-
-  double **state = nullptr; // NCOLUMNS per atom
   Guard guard;
 
 private:
-  enum class Step { check, any, automatic, contacts };
-
-  template <class Value> double scene_minimum(Value) const;
+  bool take_body_force(Shearbox::DeckWords &);
+  void set_rescue(const std::string &file);
+  void take_grains();
+  void tell_grains();
   void refuse_second_integrator() const;
-  void parse_step_rule(int narg, char **arg, int &iarg);
-  void parse_rescue(int narg, char **arg, int &iarg);
-  int parse_body_force(int narg, char **arg);
-  double number(const char *keyword, int narg, char **arg, int &iarg) const;
-  void apply_step_rule();
-  bool chooses_step() const { return rule == Step::automatic || rule == Step::contacts; }
-  double at_most_max(double step) const;
-  void set_step(double step);
-  void choose_kept_step();
   double smallest_disc() const;
-  void compare_with_contacts();
-  void take_acceleration(int i);
-
   template <class Velocity> void book_drag_at(Velocity);
 
+  StepChoice step;
+  FixCDEMGrains *grains = nullptr;
   FixCDEMAudit *audit = nullptr;
-  std::vector<Inverse> inverses;
-  ContactLimit contacts;
-  bool warned = false; // in this run, that the step is beyond the limit of the contacts
-
-  // What restart files keep.
-  struct {
-    bigint valid_step = -1; // the step at whose end `state` was written
-    double step = 0;        // what dt contacts has chosen (s), 0: nothing yet
-  } kept;
-
-  Step rule = Step::check;
-  double max_step;
-  double limit = 0;
-  double weight = 0; // share of half a step by which the dashpots' velocity is carried forward, see core/stability.h
   double gravity[2] = {0, 0}, drag = 0; // m/s^2, 1/s
-  std::vector<double> inertia;          // over mass radius^2, by type
-  std::vector<int> to_start;            // grains whose acceleration was not known at setup
+  double inertia_factor = 1;
+  std::vector<int> to_start; // grains whose acceleration was not known at setup
 };
 
 } // namespace LAMMPS_NS

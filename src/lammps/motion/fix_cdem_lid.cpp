@@ -3,6 +3,8 @@
 
 #include "contacts/pair_cdem.h"
 
+#include "host/packed_state.h"
+
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
@@ -22,7 +24,8 @@ using namespace LAMMPS_NS;
 
 namespace {
 enum Output { APPLIED, FELT, HEIGHT, VELOCITY, CAPPED_STEPS, FORCE_X, NOUTPUTS };
-}
+constexpr int VERSION = 1; // of what restart files keep
+} // namespace
 
 FixCDEMLid::FixCDEMLid(LAMMPS *lmp, int narg, char **arg) : WallBody(lmp, narg, arg) {
   bool has_stress = false;
@@ -182,11 +185,8 @@ double FixCDEMLid::compute_vector(int n) {
 }
 
 void FixCDEMLid::write_restart(FILE *fp) {
-  if (comm->me != 0)
-    return;
-  const int size = sizeof(state);
-  fwrite(&size, sizeof(size), 1, fp);
-  fwrite(&state, sizeof(state), 1, fp);
+  if (comm->me == 0)
+    Shearbox::write_state(fp, VERSION, state);
 }
 
-void FixCDEMLid::restart(char *buf) { memcpy(&state, buf, sizeof(state)); }
+void FixCDEMLid::restart(char *buf) { state = Shearbox::read_state<State>(lmp, style, VERSION, buf); }

@@ -33,7 +33,8 @@ public:
   void final_integrate() override;
   double compute_vector(int) override;
   bool follows_forces() const override { return true; }
-  bool has_variable() const { return !stress_variable.empty(); }
+  // A variable may look at the atoms.
+  bool needs_every_step() const override { return !stress_variable.empty(); }
   void write_restart(FILE *) override;
   void restart(char *) override;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "motion/fix_cdem_move.h"
 
+#include "host/packed_state.h"
+
 #include "comm.h"
 #include "error.h"
 #include "update.h"
@@ -13,6 +15,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 enum Output { DISPLACEMENT, SPEED, FORCE_X, FORCE_Y, NOUTPUTS };
+constexpr int VERSION = 1; // of what restart files keep
 constexpr double PI = 3.14159265358979323846;
 constexpr double RESOLUTION = 0x1p-50; // m, see the header
 } // namespace
@@ -118,11 +121,8 @@ double FixCDEMMove::compute_vector(int n) {
 }
 
 void FixCDEMMove::write_restart(FILE *fp) {
-  if (comm->me != 0)
-    return;
-  const int size = sizeof(clock);
-  fwrite(&size, sizeof(size), 1, fp);
-  fwrite(&clock, sizeof(clock), 1, fp);
+  if (comm->me == 0)
+    Shearbox::write_state(fp, VERSION, clock);
 }
 
-void FixCDEMMove::restart(char *buf) { memcpy(&clock, buf, sizeof(clock)); }
+void FixCDEMMove::restart(char *buf) { clock = Shearbox::read_state<Clock>(lmp, style, VERSION, buf); }

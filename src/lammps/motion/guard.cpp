@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "motion/guard.h"
 
-#include "motion/fix_cdem_integrate.h"
-
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
@@ -27,7 +25,8 @@ struct Located {
 };
 } // namespace
 
-void Guard::begin(double smallest_radius) {
+void Guard::begin(double smallest_radius, double step_limit) {
+  limit = step_limit;
   allowed = LARGEST_SHARE * smallest_radius;
   if (automatic && atom->natoms > MOST_ATOMS * comm->nprocs)
     file.clear();
@@ -110,7 +109,6 @@ void Guard::fail(int owner, std::string what) {
 }
 
 std::string Guard::cause() const {
-  const double limit = FixCDEMIntegrate::find(lmp)->compute_scalar();
   if (update->dt > limit)
     return fmt::format("The time step {:.4g} s is beyond the stability limit {:.4g} s of this scene: take a smaller "
                        "one, or 'dt auto'.",

@@ -25,8 +25,8 @@ public:
     automatic = false;
   }
 
-  // At the start of a run, with the smallest radius of a disc.
-  void begin(double smallest_radius);
+  // At the start of a run, with the smallest radius of a disc, and the stability limit of the scene for messages (s).
+  void begin(double smallest_radius, double step_limit);
   // Whether a grain that moved so far in a step (m), or an unknown distance, is to be looked for.
   bool suspects(double moved) const { return !(moved <= allowed); }
   // Whether this is a step in which grains are to be looked at, whatever is suspected: what is no number has no speed.
@@ -49,6 +49,7 @@ private:
   std::string file = "rescue.restart";
   bool automatic = true;
   double allowed = 0; // way of a grain in a step (m)
+  double limit = 0;   // of the time step (s)
   Rescue rescue;
 };
 

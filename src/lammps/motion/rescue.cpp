@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "motion/rescue.h"
 
-#include "contacts/pair_cdem.h"
+#include "contacts/fix_cdem_history.h"
 
 #include "atom.h"
 #include "atom_vec.h"
 #include "comm.h"
 #include "error.h"
 #include "fix.h"
-#include "force.h"
 #include "modify.h"
 #include "update.h"
 #include "write_restart.h"
@@ -28,7 +27,7 @@ void Rescue::take() {
 }
 
 void Rescue::pack_atoms(Copy &copy) {
-  static_cast<PairCDEM *>(force->pair)->store_history();
+  FixCDEMHistory::find(lmp)->copy_from_list();
   constexpr int EXTRA = 1024; // as much as LAMMPS has to spare in its own buffers
   int largest = atom->avec->maxexchange + EXTRA;
   for (int k = 0; k < modify->nfix; k++)
@@ -45,7 +44,7 @@ void Rescue::pack_atoms(Copy &copy) {
 }
 
 void Rescue::unpack_atoms(Copy &copy) {
-  static_cast<PairCDEM *>(force->pair)->release_history();
+  FixCDEMHistory::find(lmp)->take_from_list();
   atom->nlocal = atom->nghost = 0;
   double *next = copy.atoms.data();
   for (int i = 0; i < copy.natoms; i++)

@@ -3,8 +3,7 @@
 
 #include "contacts/pair_cdem.h"
 #include "motion/fix_cdem_integrate.h"
-#include "motion/fix_cdem_lid.h"
-#include "output/fix_cdem_trm.h"
+#include "motion/wall_body.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -30,12 +29,13 @@ void VerletCDEM::init() {
   Verlet::init();
   pair = dynamic_cast<PairCDEM *>(force->pair);
   integrate = FixCDEMIntegrate::find(lmp);
+  grains = FixCDEMGrains::find(lmp);
   if (!pair)
     error->all(FLERR, "Run style verlet/cdem needs pair_style cdem");
   statistics.clear();
   wall_bodies.clear();
   for (int i = 0; i < modify->nfix; i++) {
-    if (auto *fix = dynamic_cast<FixCDEMTRM *>(modify->fix[i]))
+    if (auto *fix = dynamic_cast<SumsSteps *>(modify->fix[i]))
       statistics.push_back(fix);
     if (auto *fix = dynamic_cast<WallBody *>(modify->fix[i]))
       wall_bodies.push_back(fix);
@@ -61,10 +61,8 @@ std::string VerletCDEM::hindrance() const {
 
 bool VerletCDEM::acts_in_every_step(int ifix) const {
   const Fix *const fix = modify->fix[ifix];
-  if (const auto *lid = dynamic_cast<const FixCDEMLid *>(fix))
-    return lid->has_variable();
-  if (utils::strmatch(fix->style, "^cdem/"))
-    return false;
+  if (const auto *glides = dynamic_cast<const Glides *>(fix))
+    return glides->needs_every_step();
   constexpr int WITHIN = FixConst::INITIAL_INTEGRATE | FixConst::POST_INTEGRATE | FixConst::PRE_FORCE |
                          FixConst::PRE_REVERSE | FixConst::POST_FORCE | FixConst::FINAL_INTEGRATE;
   const int mask = modify->fmask[ifix];
@@ -178,7 +176,7 @@ void VerletCDEM::step(cdem::Fastest &fastest) {
   pair->forces_and_advance(rule, felt, fastest, first != end ? (*first)->travel() : nullptr);
   move_walls(fastest);
   if (first != end)
-    std::for_each(first + 1, end, [this](FixCDEMTRM *fix) { fix->add(pair->rows); });
+    std::for_each(first + 1, end, [this](SumsSteps *fix) { fix->add(pair->rows); });
 }
 
 // As Verlet does it, on the atoms' arrays.
@@ -189,7 +187,7 @@ void VerletCDEM::begin_step() {
   if (modify->n_post_integrate)
     modify->post_integrate();
 
-  rule = integrate->step_rule();
+  rule = grains->step_rule();
   pair->rows.take_bodies();
   pair->rows.fill(0, atom->nlocal, rule.forward);
   for (WallBody *fix : wall_bodies)

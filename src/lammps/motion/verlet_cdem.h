@@ -11,8 +11,8 @@
 // should a grain have more than quadrupled its speed in just that step, it counts as a dangerous build.
 //
 // A fix that acts within every step, such as gravity or viscous, leaves no steps to be made this way: then this is
-// run_style verlet, and a warning names the fix. The fixes of this package are no hindrance, except fix cdem/lid with a
-// variable for its stress.
+// run_style verlet, and a warning names the fix. Those that say that they may be glided over (host/glides.h) are no
+// hindrance: the fixes of this package, except fix cdem/lid with a variable for its stress.
 #pragma once
 
 #include "core/disc_motion.h"
@@ -24,9 +24,10 @@
 
 namespace LAMMPS_NS {
 
+class FixCDEMGrains;
 class FixCDEMIntegrate;
-class FixCDEMTRM;
 class PairCDEM;
+class SumsSteps;
 class WallBody;
 
 class VerletCDEM : public Verlet {
@@ -55,9 +56,10 @@ private:
   bool rebuild_is_due(int steps, const cdem::Fastest &);
 
   PairCDEM *pair = nullptr;
+  FixCDEMGrains *grains = nullptr;
   FixCDEMIntegrate *integrate = nullptr;
   std::vector<WallBody *> wall_bodies;
-  std::vector<FixCDEMTRM *> statistics;
+  std::vector<SumsSteps *> statistics;
   std::vector<int> felt; // own wall discs whose forces matter in every step
 
   bool can_glide = false;

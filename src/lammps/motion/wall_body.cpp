@@ -3,7 +3,7 @@
 
 #include "core/exact_sum.h"
 #include "grains/fix_cdem_audit.h"
-#include "motion/fix_cdem_integrate.h"
+#include "grains/fix_cdem_grains.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -44,11 +44,11 @@ void WallBody::init() {
     error->all(FLERR, "Fix {} {}: group {} has no atoms", style, id, name);
 
   audit = FixCDEMAudit::find(lmp);
-  integrate = FixCDEMIntegrate::find(lmp);
-  if (integrate)
-    if (const bigint n = count_also_in(integrate->groupbit))
+  grains = FixCDEMGrains::find(lmp);
+  if (grains)
+    if (const bigint n = count_also_in(group->bitmask[grains->group_of_grains()]))
       error->all(FLERR, "Fix {} {}: {} atoms of group {} are also in group {}, which fix cdem/integrate moves", style,
-                 id, n, name, group->names[integrate->igroup]);
+                 id, n, name, group->names[grains->group_of_grains()]);
   for (int i = 0; i < modify->nfix; i++) {
     const auto *other = dynamic_cast<WallBody *>(modify->fix[i]);
     if (!other || other == this)
@@ -120,10 +120,8 @@ void WallBody::set_motion(Vector velocity, Vector acceleration) {
   for (int i : discs) {
     atom->v[i][0] = velocity.x;
     atom->v[i][1] = velocity.y;
-    if (!integrate)
-      continue;
-    integrate->state[i][FixCDEMIntegrate::AX] = acceleration.x;
-    integrate->state[i][FixCDEMIntegrate::AY] = acceleration.y;
+    if (grains)
+      grains->set_acceleration(i, {acceleration.x, acceleration.y, 0});
   }
 }
 
@@ -138,7 +136,7 @@ void WallBody::shift(Vector displacement, Vector velocity) {
   displacement_of_step = displacement;
   velocity_of_step = velocity;
   if (rows) {
-    const double forward = integrate->step_rule().forward;
+    const double forward = grains->step_rule().forward;
     const Vector ahead{velocity.x + forward * acceleration_now.x, velocity.y + forward * acceleration_now.y};
     rows->shift(discs, displacement, velocity, ahead);
     return;

@@ -6,6 +6,8 @@
 #pragma once
 
 #include "grains/grain_rows.h"
+#include "host/deck_words.h"
+#include "host/glides.h"
 
 #include "fix.h"
 
@@ -14,9 +16,9 @@
 namespace LAMMPS_NS {
 
 class FixCDEMAudit;
-class FixCDEMIntegrate;
+class FixCDEMGrains;
 
-class WallBody : public Fix {
+class WallBody : public Fix, public Glides {
 public:
   WallBody(LAMMPS *, int, char **);
 
@@ -63,7 +65,7 @@ private:
   template <class Term> double sum(Term term) const;
   bigint count_also_in(int other_groupbit) const;
 
-  FixCDEMIntegrate *integrate = nullptr;
+  FixCDEMGrains *grains = nullptr;
   FixCDEMAudit *audit = nullptr;
   GrainRows *rows = nullptr; // null: the atoms themselves
   Vector displacement_of_step{0, 0}, velocity_of_step{0, 0}, acceleration_now{0, 0}, force_before{0, 0};

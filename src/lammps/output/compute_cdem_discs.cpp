@@ -2,7 +2,7 @@
 #include "output/compute_cdem_discs.h"
 
 #include "contacts/pair_cdem.h"
-#include "motion/fix_cdem_integrate.h"
+#include "grains/fix_cdem_grains.h"
 
 #include "atom.h"
 #include "error.h"
@@ -23,7 +23,7 @@ void ComputeCDEMDiscs::init() {
   pair = dynamic_cast<PairCDEM *>(force->pair);
   if (!pair)
     error->all(FLERR, "Compute cdem/discs {} needs pair_style cdem", id);
-  integrate = FixCDEMIntegrate::find(lmp); // the pair style has seen that there is one
+  grains = FixCDEMGrains::find(lmp); // the pair style has seen that there is one
 }
 
 void ComputeCDEMDiscs::compute_local() {
@@ -37,7 +37,7 @@ void ComputeCDEMDiscs::compute_local() {
     discs.add(x);
     discs.add(y);
     discs.add(radius);
-    discs.add(integrate->state[i][FixCDEMIntegrate::ANGLE]);
+    discs.add(grains->angle(i));
     discs.add(atom->type[i]);
   }
   array_local = discs.rows(size_local_cols);

@@ -23,7 +23,7 @@
 
 namespace LAMMPS_NS {
 
-class FixCDEMIntegrate;
+class FixCDEMGrains;
 class PairCDEM;
 
 class ComputeCDEMDiscs : public Compute {
@@ -36,7 +36,7 @@ public:
 
 private:
   const PairCDEM *pair = nullptr;
-  const FixCDEMIntegrate *integrate = nullptr;
+  const FixCDEMGrains *grains = nullptr;
   Shearbox::LocalArray discs;
 };
 

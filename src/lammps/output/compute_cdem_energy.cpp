@@ -2,10 +2,8 @@
 #include "output/compute_cdem_energy.h"
 
 #include "contacts/pair_cdem.h"
-#include "grains/fix_cdem_audit.h"
-#include "grains/fix_cdem_shape.h"
+#include "grains/fix_cdem_grains.h"
 #include "host/compat.h"
-#include "motion/fix_cdem_integrate.h"
 
 #include "atom.h"
 #include "domain.h"
@@ -35,7 +33,7 @@ ComputeCDEMEnergy::ComputeCDEMEnergy(LAMMPS *lmp, int narg, char **arg) : Comput
     if (FixCDEMAudit::find(lmp))
       error->all(FLERR, "Compute cdem/energy {}: there is one with an audit already", id);
     audit = static_cast<FixCDEMAudit *>(modify->add_fix(std::string(FixCDEMAudit::ID) + " all cdem/audit"));
-    audit->compute = this;
+    audit->opener = this;
   }
   scalar_flag = vector_flag = 1;
   extscalar = extvector = 1;
@@ -52,10 +50,7 @@ void ComputeCDEMEnergy::init() {
   pair = dynamic_cast<PairCDEM *>(force->pair);
   if (!pair)
     error->all(FLERR, "Compute cdem/energy {} needs pair_style cdem", id);
-  integrate = FixCDEMIntegrate::find(lmp);
-  inertia.assign(1, 0);
-  for (int type = 1; type <= atom->ntypes; type++)
-    inertia.push_back(FixCDEMShape::shape(lmp, type).inertia());
+  grains = FixCDEMGrains::find(lmp);
 }
 
 void ComputeCDEMEnergy::compute_vector() {
@@ -64,10 +59,9 @@ void ComputeCDEMEnergy::compute_vector() {
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit))
       continue;
-    const double m = atom->rmass[i], r = atom->radius[i], omega = atom->omega[i][2];
-    const double *const v = atom->v[i];
-    mine[TRANSLATION] += 0.5 * m * (v[0] * v[0] + v[1] * v[1]);
-    mine[ROTATION] += 0.5 * (inertia[atom->type[i]] * m * r * r) * omega * omega;
+    const auto [translation, rotation] = kinetic(i);
+    mine[TRANSLATION] += translation;
+    mine[ROTATION] += rotation;
   }
   const auto [normal, tangential] = pair->spring_energy();
   mine[SPRINGS] = normal + tangential;
@@ -76,19 +70,24 @@ void ComputeCDEMEnergy::compute_vector() {
     keep_books();
 }
 
+ComputeCDEMEnergy::Kinetic ComputeCDEMEnergy::kinetic(int i) const {
+  const double m = atom->rmass[i], r = atom->radius[i], omega = atom->omega[i][2];
+  const double *const v = atom->v[i];
+  return {0.5 * m * (v[0] * v[0] + v[1] * v[1]), 0.5 * (grains->inertia(atom->type[i]) * m * r * r) * omega * omega};
+}
+
 ComputeCDEMEnergy::State ComputeCDEMEnergy::state() const {
-  const cdem::StepRule step = integrate->step_rule();
+  const cdem::StepRule step = grains->step_rule();
   const auto [normal, tangential] = pair->spring_energy();
   double mine[4] = {0, normal + tangential, tangential, 0}, all[4];
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!integrate->is_free(i))
+    if (!grains->is_free(i))
       continue;
-    const double m = atom->rmass[i], r = atom->radius[i], omega = atom->omega[i][2];
-    const double *const v = atom->v[i];
-    mine[0] += 0.5 * m * (v[0] * v[0] + v[1] * v[1] + inertia[atom->type[i]] * r * r * omega * omega);
+    const auto [translation, rotation] = kinetic(i);
+    mine[0] += translation + rotation;
     double x[3];
     domain->unmap(atom->x[i], atom->image[i], x);
-    mine[3] += m * (step.gx * x[0] + step.gy * x[1]);
+    mine[3] += atom->rmass[i] * (step.gx * x[0] + step.gy * x[1]);
   }
   MPI_Allreduce(mine, all, 4, MPI_DOUBLE, MPI_SUM, world);
   return {all[0], all[1], all[2], all[3]};

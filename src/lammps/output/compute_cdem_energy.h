@@ -27,18 +27,18 @@
 // step allows.
 #pragma once
 
+#include "grains/fix_cdem_audit.h"
+
 #include "compute.h"
 
 #include <array>
-#include <vector>
 
 namespace LAMMPS_NS {
 
-class FixCDEMAudit;
-class FixCDEMIntegrate;
+class FixCDEMGrains;
 class PairCDEM;
 
-class ComputeCDEMEnergy : public Compute {
+class ComputeCDEMEnergy : public Compute, public FixCDEMAudit::Opener {
 public:
   ComputeCDEMEnergy(LAMMPS *, int, char **);
   ~ComputeCDEMEnergy() override;
@@ -47,7 +47,7 @@ public:
   double compute_scalar() override;
   void compute_vector() override;
 
-  void open_books(); // unless they are open
+  void open_books() override;
 
 private:
   enum Part { TRANSLATION, ROTATION, SPRINGS, NPARTS };
@@ -58,12 +58,15 @@ private:
     double kinetic, springs, tangential, gravity;
   };
   State state() const;
+  struct Kinetic {
+    double translation, rotation;
+  };
+  Kinetic kinetic(int i) const;
   void keep_books();
 
   PairCDEM *pair = nullptr;
-  FixCDEMIntegrate *integrate = nullptr;
+  FixCDEMGrains *grains = nullptr;
   FixCDEMAudit *audit = nullptr;
-  std::vector<double> inertia; // over mass radius^2, by type
   std::array<double, NALL> energy{};
 };
 

@@ -8,8 +8,6 @@
 #include "force.h"
 #include "update.h"
 
-#include <cmath>
-
 using namespace LAMMPS_NS;
 
 ComputeCDEMLimit::ComputeCDEMLimit(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg) {
@@ -27,6 +25,6 @@ void ComputeCDEMLimit::init() {
 
 double ComputeCDEMLimit::compute_scalar() {
   invoked_scalar = update->ntimestep;
-  scalar = FixCDEMIntegrate::find(lmp)->contact_limit(INFINITY);
+  scalar = FixCDEMIntegrate::find(lmp)->contact_limit();
   return scalar;
 }

@@ -2,8 +2,8 @@
 #include "output/compute_cdem_trm.h"
 
 #include "core/exact_sum.h"
+#include "grains/fix_cdem_grains.h"
 #include "host/compat.h"
-#include "motion/fix_cdem_integrate.h"
 #include "output/fix_cdem_trm.h"
 
 #include "atom.h"
@@ -35,13 +35,13 @@ void ComputeCDEMTRM::init() {
   sums = dynamic_cast<FixCDEMTRM *>(Shearbox::fix_by_id(lmp, fix_id));
   if (!sums)
     error->all(FLERR, "Compute cdem/trm {}: its fix {} is gone; make the compute again", id, fix_id);
-  integrate = FixCDEMIntegrate::find(lmp);
-  if (!integrate)
+  grains = FixCDEMGrains::find(lmp);
+  if (!grains || !grains->are_moved())
     error->all(FLERR, "Compute cdem/trm {} needs a fix cdem/integrate", id);
 }
 
 bool ComputeCDEMTRM::counts(int i) const {
-  return (atom->mask[i] & groupbit) && integrate->is_free(i) && sums->travel()[i].path > 0;
+  return (atom->mask[i] & groupbit) && grains->is_free(i) && sums->travel()[i].path > 0;
 }
 
 double ComputeCDEMTRM::ratio(int i) const {

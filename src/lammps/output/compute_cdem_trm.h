@@ -23,7 +23,7 @@
 
 namespace LAMMPS_NS {
 
-class FixCDEMIntegrate;
+class FixCDEMGrains;
 class FixCDEMTRM;
 
 class ComputeCDEMTRM : public Compute {
@@ -42,7 +42,7 @@ private:
 
   const std::string fix_id;
   FixCDEMTRM *sums = nullptr;
-  const FixCDEMIntegrate *integrate = nullptr;
+  const FixCDEMGrains *grains = nullptr;
   std::vector<double> ratios; // per atom
 };
 

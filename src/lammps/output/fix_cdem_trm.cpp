@@ -2,6 +2,7 @@
 #include "output/fix_cdem_trm.h"
 
 #include "grains/grain_rows.h"
+#include "host/packed_state.h"
 
 #include "atom.h"
 #include "update.h"
@@ -68,12 +69,9 @@ int FixCDEMTRM::pack_restart(int i, double *buf) {
   return RESTART_SIZE;
 }
 
-// atom->extra holds the blocks of all fixes one after the other.
 void FixCDEMTRM::unpack_restart(int i, int nth) {
-  double *block = atom->extra[i];
-  for (int skip = 0; skip < nth; skip++)
-    block += static_cast<int>(*block);
-  unpack_exchange(i, block + 1);
+  const double *const of_atom = Shearbox::state_of_atom(lmp, style, atom->extra[i], nth, SIZE);
+  sums[i] = {of_atom[0], of_atom[1]};
 }
 
 int FixCDEMTRM::size_restart(int) { return RESTART_SIZE; }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/disc_motion.h"
+#include "host/glides.h"
 
 #include "fix.h"
 
@@ -13,13 +14,13 @@ namespace LAMMPS_NS {
 
 class GrainRows;
 
-class FixCDEMTRM : public Fix {
+class FixCDEMTRM : public Fix, public SumsSteps {
 public:
   FixCDEMTRM(LAMMPS *, int, char **);
   ~FixCDEMTRM() override;
 
-  cdem::Travel *travel() { return sums.data(); } // by atom; of walls without a meaning
-  void add(const GrainRows &);                   // a step made on rows
+  cdem::Travel *travel() override { return sums.data(); } // of walls without a meaning
+  void add(const GrainRows &) override;
 
   int setmask() override;
   void post_integrate() override;

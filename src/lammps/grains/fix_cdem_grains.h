@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// fix cdem/grains: made by fix cdem/integrate, not by the user. What a grain is beside LAMMPS's own arrays, in one
+// place: which atoms are grains and which are walls, the angle and the acceleration of each, its inertia, and how the
+// time is stepped. It stays when fix cdem/integrate is defined anew, so grains keep their angles, and travels with the
+// grains and in restart files.
+#pragma once
+
+#include "core/disc_motion.h"
+#include "host/glides.h"
+
+#include "atom.h"
+#include "fix.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class FixCDEMGrains : public Fix, public Glides {
+public:
+  static constexpr const char *ID = "CDEM_GRAINS";
+
+  // The fix of this style, or null.
+  static FixCDEMGrains *find(LAMMPS *);
+  // The same; makes it if there is none.
+  static FixCDEMGrains *find_or_make(LAMMPS *);
+
+  FixCDEMGrains(LAMMPS *, int, char **);
+  ~FixCDEMGrains() override;
+
+  // --- who moves: the group of fix cdem/integrate; all other atoms are walls ---
+  // `mover` shows the states as its per-atom array.
+  void begin_moving(Fix *mover);
+  void end_moving() { mover = nullptr; }
+  bool are_moved() const { return mover; }
+  bool is_free(int i) const { return atom->mask[i] & mover->groupbit; }
+  int group_of_grains() const { return mover->igroup; }
+
+  // --- of each atom ---
+  double angle(int i) const { return state[i][ANGLE]; } // turned so far, rad
+  double &angle(int i) { return state[i][ANGLE]; }
+  // At the end of the last step, m/s^2 and rad/s^2: NaN as long as it is not known.
+  struct Acceleration {
+    double x, y, turn;
+  };
+  Acceleration acceleration(int i) const { return {state[i][AX], state[i][AY], state[i][ALPHA]}; }
+  void set_acceleration(int i, const Acceleration &a) {
+    state[i][AX] = a.x;
+    state[i][AY] = a.y;
+    state[i][ALPHA] = a.turn;
+  }
+  Acceleration acceleration_by_forces(int i) const {
+    return {inverses[i].mass * atom->f[i][0], inverses[i].mass * atom->f[i][1],
+            inverses[i].inertia * atom->torque[i][2]};
+  }
+  // Whether the acceleration is that of the present step; else the first step takes it from the forces.
+  bool knows_acceleration(int i) const;
+  void accelerations_are_of_this_step();
+  void forget_accelerations() { kept.valid_step = -1; }
+
+  // --- mass and inertia ---
+  // 1/m and 1/I of an own atom, 0 of walls; divisions, done once for many steps.
+  struct Inverse {
+    double mass, inertia;
+  };
+  const Inverse &inverse(int i) const { return inverses[i]; }
+  void set_inverses();
+  // Moment of inertia of a grain of this type over m r^2, r the circumscribed radius.
+  double inertia(int type) const { return inertias[type]; }
+  void set_inertias(const std::vector<double> &by_type) { inertias = by_type; }
+
+  // --- how the time is stepped ---
+  // Gravity (m/s^2), drag (1/s), and the share of half a step by which the dashpots' velocity is carried forward (see
+  // core/stability.h).
+  double gravity[2] = {0, 0}, drag = 0, weight = 0;
+  cdem::StepRule step_rule() const;
+
+  int setmask() override { return 0; }
+  double memory_usage() override;
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int size_restart(int) override;
+  int maxsize_restart() override;
+
+  enum Column { AX, AY, ALPHA, ANGLE, NCOLUMNS };
+
+private:
+  double **state = nullptr; // NCOLUMNS per atom
+  Fix *mover = nullptr;
+  std::vector<Inverse> inverses;
+  std::vector<double> inertias; // by type
+  struct {
+    bigint valid_step = -1; // the step at whose end the accelerations were taken
+  } kept;                   // what restart files keep
+};
+
+} // namespace LAMMPS_NS

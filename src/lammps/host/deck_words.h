@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The words of a command in an input deck, read one after the other; what is missing is named in the error.
+#pragma once
+
+#include "error.h"
+#include "lammps.h"
+#include "utils.h"
+
+#include <cmath>
+#include <string>
+
+namespace Shearbox {
+
+class DeckWords {
+public:
+  // From arg[next] on. `who` begins all messages: the command, or the style with its ID.
+  DeckWords(LAMMPS_NS::LAMMPS *lmp, std::string who, int narg, char **arg, int next = 0)
+      : lmp(lmp), who(std::move(who)), narg(narg), arg(arg), next(next) {}
+
+  bool done() const { return next >= narg; }
+  int read() const { return next; } // how many words are behind
+  void skip(int n) { next += n; }
+
+  std::string word(const std::string &what) {
+    if (done())
+      lmp->error->all(FLERR, "{}: {} is missing", who, what);
+    return arg[next++];
+  }
+
+  // What follows a keyword, of which the message says "nothing" if nothing does.
+  std::string choice() { return done() ? "nothing" : arg[next++]; }
+
+  // Whether the next word is this one; then it is taken.
+  bool take(const std::string &keyword) {
+    if (done() || keyword != arg[next])
+      return false;
+    next++;
+    return true;
+  }
+  void keyword(const char *name) {
+    const std::string w = word(name);
+    if (w != name)
+      lmp->error->all(FLERR, "{}: {} where {} is expected", who, w, name);
+  }
+
+  bool number_follows() const { return !done() && LAMMPS_NS::utils::is_double(arg[next]); }
+  double number(const std::string &what) {
+    if (done())
+      lmp->error->all(FLERR, "{}: {} has no value", who, what);
+    return LAMMPS_NS::utils::numeric(FLERR, arg[next++], false, lmp);
+  }
+  double finite(const std::string &what) {
+    const double x = number(what);
+    if (!std::isfinite(x))
+      lmp->error->all(FLERR, "{}: {} {}: must be a finite number", who, what, x);
+    return x;
+  }
+  double positive(const std::string &what) {
+    const double x = number(what);
+    if (!(x > 0 && std::isfinite(x)))
+      lmp->error->all(FLERR, "{}: {} {}: must be positive", who, what, x);
+    return x;
+  }
+  int count(const std::string &what) {
+    const int n = LAMMPS_NS::utils::inumeric(FLERR, word(what).c_str(), false, lmp);
+    if (n < 1)
+      lmp->error->all(FLERR, "{}: {} {}: must be 1 or more", who, what, n);
+    return n;
+  }
+
+  void end() const {
+    if (!done())
+      lmp->error->all(FLERR, "{}: unexpected {}", who, arg[next]);
+  }
+
+  LAMMPS_NS::LAMMPS *const lmp;
+
+private:
+  const std::string who;
+  const int narg;
+  char **const arg;
+  int next;
+};
+
+} // namespace Shearbox

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The state that a fix keeps in restart files, with the style, a version and the length of it in front: a file of
+// another version is refused by name, and never read as something else.
+#pragma once
+
+#include "error.h"
+#include "fmt/format.h"
+#include "lammps.h"
+
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <type_traits>
+
+namespace Shearbox {
+
+struct StateHead {
+  static constexpr int MARK = 0x53426f78; // "SBox"; no block of a version without heads begins with it
+  int mark, version, length;
+};
+
+// Raises the version whenever State changes: fields that are added, removed, or mean something else.
+template <class State> void write_state(FILE *file, int version, const State &state) {
+  static_assert(std::is_trivially_copyable_v<State>);
+  const StateHead head{StateHead::MARK, version, int(sizeof(State))};
+  const int size = int(sizeof(head) + sizeof(state)); // LAMMPS wants it in front
+  fwrite(&size, sizeof(size), 1, file);
+  fwrite(&head, sizeof(head), 1, file);
+  fwrite(&state, sizeof(state), 1, file);
+}
+
+[[noreturn]] inline void refuse_state(LAMMPS_NS::LAMMPS *lmp, const std::string &style, const std::string &there) {
+  const std::string message = "Fix " + style + ": the restart file holds " + there +
+                              ": it was written by another version of Shearbox; go on with that one, or run from the "
+                              "start with this one";
+  lmp->error->all(FLERR, message);
+}
+
+template <class State> State read_state(LAMMPS_NS::LAMMPS *lmp, const char *style, int version, const char *block) {
+  StateHead head{0, 0, 0};
+  memcpy(&head.mark, block, sizeof(head.mark)); // no block is shorter than this
+  if (head.mark != StateHead::MARK)
+    refuse_state(lmp, style, "a state without a version");
+  memcpy(&head, block, sizeof(head));
+  if (head.version != version || head.length != int(sizeof(State)))
+    refuse_state(lmp, style,
+                 fmt::format("version {} of its state, {} bytes, where version {}, {} bytes, is needed", head.version,
+                             head.length, version, sizeof(State)));
+  State state;
+  memcpy(&state, block + sizeof(head), sizeof(state));
+  return state;
+}
+
+// What a fix keeps of an atom, `count` numbers: LAMMPS hands the blocks of all fixes one after the other, each with its
+// length in front.
+inline const double *block_of_atom(const double *extra, int nth) {
+  for (int skip = 0; skip < nth; skip++)
+    extra += int(*extra);
+  return extra;
+}
+inline const double *state_of_atom(LAMMPS_NS::LAMMPS *lmp, const char *style, const double *extra, int nth, int count) {
+  const double *const block = block_of_atom(extra, nth);
+  if (int(*block) != 1 + count)
+    refuse_state(lmp, style, fmt::format("{} numbers of an atom where {} are needed", int(*block) - 1, count));
+  return block + 1;
+}
+
+} // namespace Shearbox

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "motion/step_choice.h"
+
+#include "contacts/pair_cdem.h"
+#include "core/stability.h"
+#include "grains/fix_cdem_grains.h"
+#include "grains/fix_cdem_shape.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "fix.h"
+#include "force.h"
+#include "modify.h"
+#include "update.h"
+#include "utils.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+namespace {
+constexpr double OF_WORST_PACKING = 0.9;
+constexpr double OF_CONTACTS = 0.8; // they change; and with it a shear test's error of energy is below 0.01 %
+} // namespace
+
+StepChoice::StepChoice(LAMMPS *lmp, Fix *fix) : Pointers(lmp), contacts(lmp, fix), max_step(INFINITY) {}
+
+void StepChoice::parse(Shearbox::DeckWords &words) {
+  const std::string word = words.choice();
+  if (word == "check")
+    rule = Rule::check;
+  else if (word == "any")
+    rule = Rule::any;
+  else if (word == "auto")
+    rule = Rule::automatic;
+  else if (word == "contacts")
+    rule = Rule::contacts;
+  else
+    error->all(FLERR, "Fix cdem/integrate: dt {}: must be check, any, auto or contacts", word);
+  if (!chooses() || !words.number_follows())
+    return;
+  max_step = words.finite("dt");
+  if (!(max_step > 0))
+    error->all(FLERR, "Fix cdem/integrate: dt {} {}: the maximum must be positive", word, max_step);
+}
+
+void StepChoice::init() {
+  limit = scene_minimum(cdem::step_limit);
+  apply();
+}
+
+void StepChoice::setup() {
+  if (rule == Rule::contacts && kept_step == 0)
+    choose_kept_step();
+  warned = false;
+  compare_with_contacts();
+}
+
+double StepChoice::prediction_weight() const {
+  const double dt = update->dt;
+  const double least = scene_minimum([dt](const auto &...grain) { return cdem::prediction_weight(grain..., dt); });
+  return std::min(least, 1.0); // infinite without grains
+}
+
+// The smallest value over all grains, each as if surrounded by its like.
+template <class Value> double StepChoice::scene_minimum(Value value) const {
+  const auto *pair = static_cast<PairCDEM *>(force->pair);
+  const auto *grains = FixCDEMGrains::find(lmp);
+  double smallest = INFINITY;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!grains->is_free(i))
+      continue;
+    const cdem::GrainShape &shape = FixCDEMShape::shape(lmp, atom->type[i]);
+    for (int other = 1; other <= atom->ntypes; other++)
+      smallest = std::min(smallest, value(pair->material(atom->type[i], other), shape, atom->rmass[i]));
+  }
+  double all;
+  MPI_Allreduce(&smallest, &all, 1, MPI_DOUBLE, MPI_MIN, world);
+  return all;
+}
+
+void StepChoice::apply() {
+  if (chooses()) {
+    set_step(kept_step > 0 ? kept_step : at_most_max(OF_WORST_PACKING * limit));
+  } else if (!(update->dt > 0 && std::isfinite(update->dt))) {
+    error->all(FLERR, "Fix cdem/integrate: the time step {} must be positive", update->dt);
+  } else if (rule == Rule::check && update->dt > limit) {
+    error->all(FLERR,
+               "Fix cdem/integrate: the time step {:.4g} is beyond the stability limit {:.4g} of this scene (smallest "
+               "grain, stiffest contact); take a smaller one, 'dt auto', or 'dt any' to run all the same",
+               update->dt, limit);
+  }
+}
+
+double StepChoice::at_most_max(double step) const {
+  step = std::min(step, max_step);
+  if (!std::isfinite(step))
+    error->all(FLERR, "Fix cdem/integrate: no time step: there is no grain in the group, and no MAX");
+  return step;
+}
+
+void StepChoice::set_step(double step) {
+  if (step == update->dt)
+    return;
+  update->update_time();
+  update->dt = step;
+  update->dt_default = 0;
+  force->pair->reset_dt();
+  for (int i = 0; i < modify->nfix; i++)
+    modify->fix[i]->reset_dt();
+  if (comm->me == 0)
+    utils::logmesg(lmp, "Fix cdem/integrate: time step {:.4g} s, stability limit of the worst packing {:.4g} s\n", step,
+                   limit);
+}
+
+// Contacts are known from setup on, too late for init().
+void StepChoice::choose_kept_step() {
+  const double stable = contacts.find(limit, INFINITY);
+  if (!std::isfinite(stable))
+    return;
+  if (comm->me == 0)
+    utils::logmesg(lmp, "Fix cdem/integrate: stability limit of the contacts {:.4g} s\n", stable);
+  kept_step = at_most_max(OF_CONTACTS * stable);
+  set_step(kept_step);
+}
+
+// The limit of the scene knows neighbours of a grain's own kind only: a large grain among many small wall discs has
+// less.
+void StepChoice::compare_with_contacts() {
+  if (warned)
+    return;
+  const double stable = contacts.find(limit, update->dt);
+  warned = update->dt > stable;
+  if (warned && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix cdem/integrate: at step {} the time step {:.4g} is beyond the stability limit {:.4g} of the "
+                   "contacts there are: grains will not come to rest, and results are wrong",
+                   update->ntimestep, update->dt, stable);
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Chooses the time step of fix cdem/integrate, or checks the one that was given, against the stability limits of
+// core/stability.h and core/contact_network.h; see the page of that fix.
+#pragma once
+
+#include "host/deck_words.h"
+#include "motion/contact_limit.h"
+
+#include "pointers.h"
+
+namespace LAMMPS_NS {
+
+class Fix;
+
+class StepChoice : protected Pointers {
+public:
+  // `fix` sends the weights of the contacts' limit to ghosts.
+  StepChoice(LAMMPS *, Fix *fix);
+
+  static constexpr const char *WORDS = "dt check|any|auto [MAX]|contacts [MAX]";
+
+  // Reads what follows the word dt.
+  void parse(Shearbox::DeckWords &);
+
+  // As a run is prepared: the limit of the scene as it is now, and the step by it.
+  void init();
+  // When contacts are known: chooses the step of `dt contacts`, unless that was done in an earlier run.
+  void setup();
+  // Warns, once a run, if the step is beyond the limit of the present contacts.
+  void compare_with_contacts();
+
+  double scene_limit() const { return limit; }
+  // Share of half a step by which the dashpots' velocity can be carried forward with the present step.
+  double prediction_weight() const;
+
+  ContactLimit contacts;
+  double kept_step = 0; // what `dt contacts` has chosen (s), 0: nothing yet; in restart files
+
+private:
+  enum class Rule { check, any, automatic, contacts };
+
+  template <class Value> double scene_minimum(Value) const;
+  bool chooses() const { return rule == Rule::automatic || rule == Rule::contacts; }
+  void apply();
+  double at_most_max(double step) const;
+  void set_step(double step);
+  void choose_kept_step();
+
+  Rule rule = Rule::check;
+  double max_step;
+  double limit = 0;    // of the worst packing (s)
+  bool warned = false; // in this run
+};
+
+} // namespace LAMMPS_NS

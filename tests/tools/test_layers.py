@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The rooms of the engine's source, in the order of a step: each knows itself and those before it, and no two files need
+each other."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+SOURCE = Path(__file__).resolve().parents[2] / "src"
+ROOMS = ["core", "host", "grains", "contacts", "motion", "output", "entry"]
+
+Graph = dict[str, set[str]]  # a header or source file without its ending, and the files that it includes
+
+
+def folder_of(room: str) -> Path:
+    return SOURCE / room if room == "core" else SOURCE / "lammps" / room
+
+
+def read_graph() -> Graph:
+    graph: Graph = {}
+    for room in ROOMS:
+        for path in sorted(folder_of(room).rglob("*.[hc]*")):
+            name = f"{room}/{path.relative_to(folder_of(room)).with_suffix('')}"
+            included = re.findall(r'^#include "([^"]+)\.h"', path.read_text(encoding="utf-8"), re.MULTILINE)
+            ours = {i if "/" in i else f"{room}/{i}" for i in included}
+            graph.setdefault(name, set()).update(i for i in ours if i != name and file_of(i).exists())
+    return graph
+
+
+def file_of(name: str) -> Path:
+    room, _, rest = name.partition("/")
+    return folder_of(room) / f"{rest}.h"
+
+
+def against_the_flow(graph: Graph) -> list[str]:
+    rank = {room: k for k, room in enumerate(ROOMS)}
+    return [
+        f"{name} includes {other}.h"
+        for name, included in sorted(graph.items())
+        for other in sorted(included)
+        if rank[other.split("/")[0]] > rank[name.split("/")[0]]
+    ]
+
+
+def cycle(graph: Graph) -> list[str]:
+    """Files of which each includes the next, and the last the first; empty if there are none."""
+    done: set[str] = set()
+
+    def search(name: str, path: list[str]) -> list[str]:
+        if name in path:
+            return [*path[path.index(name) :], name]
+        if name in done:
+            return []
+        for other in sorted(graph.get(name, set())):
+            if found := search(other, [*path, name]):
+                return found
+        done.add(name)
+        return []
+
+    return next((found for name in sorted(graph) if (found := search(name, []))), [])
+
+
+def test_all_rooms_are_known() -> None:
+    folders = {path.name for path in (SOURCE / "lammps").iterdir()} | {"core"}
+    assert folders == set(ROOMS)
+    assert len(read_graph()) > 40
+
+
+def test_no_room_looks_into_a_later_one() -> None:
+    assert against_the_flow(read_graph()) == []
+
+
+def test_no_cycle() -> None:
+    assert cycle(read_graph()) == []
+
+
+def test_core_knows_no_engine() -> None:
+    text = "".join(path.read_text(encoding="utf-8") for path in folder_of("core").rglob("*.[hc]*"))
+    assert "LAMMPS_NS" not in text
+
+
+@pytest.mark.parametrize("back", ["contacts/pair_cdem", "motion/guard"])
+def test_a_back_include_is_found(back: str) -> None:
+    graph = read_graph()
+    graph["grains/grain_rows"].add(back)
+    assert against_the_flow(graph) == [f"grains/grain_rows includes {back}.h"]
+
+
+def test_a_cycle_is_found() -> None:
+    graph = read_graph()
+    graph["motion/guard"].add("motion/fix_cdem_integrate")
+    assert cycle(graph)[0] == cycle(graph)[-1]
