@@ -5,9 +5,9 @@
 //
 //   u.(K dt^2 + 2 C dt) u > 4 u.M u,    K, C: sums over the contacts of k (g.u)^2 and c (g.u)^2,
 //
-// where g.u = g_i.u_i - g_j.u_j is the relative motion of the two grains along the normal or the tangent. For any
-// weights y > 0 of the grains, (g.u)^2 <= (1 + y_j/y_i) (g_i.u_i)^2 + (1 + y_i/y_j) (g_j.u_j)^2. So the grains can be
-// looked at one by one: stable if for each of them the largest eigenvalue of
+// where g.u = g_i.u_i - g_j.u_j is the relative motion of the two grains along the normal or the tangent, or their
+// turning against each other. For any weights y > 0 of the grains, (g.u)^2 <= (1 + y_j/y_i) (g_i.u_i)^2 + (1 + y_i/y_j)
+// (g_j.u_j)^2. So the grains can be looked at one by one: stable if for each of them the largest eigenvalue of
 //
 //   B_i = M_i^-1 sum over its contacts of (1 + y_j/y_i) (k dt^2 + 2 c dt) g_i g_i
 //
@@ -16,7 +16,7 @@
 // gives a step that is safe. A wall does not move: y = 0. Sliding contacts count as if they stuck.
 #pragma once
 
-#include "contact_law.h"
+#include "declaration.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,11 +53,10 @@ private:
 
 // A contact as one of its grains has it.
 struct Touch {
-  int other;        // the other grain, an own one or a ghost
-  double nx, ny;    // unit normal
-  double ox, oy;    // place, from the centre of the grain
-  double root_mass; // 2 sqrt(m) of the pair
-  const Material *material;
+  int other;     // the other grain, an own one or a ghost
+  double nx, ny; // unit normal
+  double ox, oy; // place, from the centre of the grain
+  Resistance resistance;
 };
 
 template <class Packing> class ContactNetwork {
@@ -105,7 +104,7 @@ public:
 private:
   static constexpr double ALLOWED = 4;
 
-  static double load(double stiffness, double dashpot, double dt) { return (stiffness * dt + 2 * dashpot) * dt; }
+  static double load(const Resistance::Part &p, double dt) { return (p.stiffness * dt + 2 * p.dashpot) * dt; }
 
   double load(int i, double dt, const std::vector<double> &weights) const {
     const auto inverse = packing.inverse(i);
@@ -114,10 +113,12 @@ private:
     const double by_mass = std::sqrt(inverse.mass), by_inertia = std::sqrt(inverse.inertia);
     Squares sum;
     packing.for_each_touch(i, [&](const Touch &t) {
-      const Material &m = *t.material;
+      const auto &[normal, tangent, turning] = t.resistance;
       const double factor = 1 + weights[t.other] / weights[i], x = t.nx * by_mass, y = t.ny * by_mass;
-      sum.add(factor * load(m.kn, m.dn * t.root_mass, dt), x, y, (t.ox * t.ny - t.oy * t.nx) * by_inertia);
-      sum.add(factor * load(m.ks, m.ds * t.root_mass, dt), -y, x, (t.ox * t.nx + t.oy * t.ny) * by_inertia);
+      sum.add(factor * load(normal, dt), x, y, (t.ox * t.ny - t.oy * t.nx) * by_inertia);
+      sum.add(factor * load(tangent, dt), -y, x, (t.ox * t.nx + t.oy * t.ny) * by_inertia);
+      if (turning.stiffness > 0)
+        sum.add(factor * load(turning, dt), 0, 0, by_inertia);
     });
     return sum.largest();
   }

@@ -3,7 +3,7 @@
 // has just been summed, then the first half of the next.
 #pragma once
 
-#include "contact_law.h"
+#include "kinematics.h"
 
 #include <algorithm>
 

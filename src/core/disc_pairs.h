@@ -4,8 +4,11 @@
 #pragma once
 
 #include "column.h"
-#include "contact_law.h"
+#include "kinematics.h"
+#include "material.h"
+#include "rules.h"
 
+#include <array>
 #include <vector>
 
 namespace cdem {
@@ -19,8 +22,8 @@ struct alignas(64) PairGroup {
   // Where the rows of the two discs, and the slots for their forces, begin: counted in doubles, which the processor's
   // addressing scales by itself.
   int a[SIZE], b[SIZE], slot_a[SIZE], slot_b[SIZE];
-  double radius_sum[SIZE], half_difference[SIZE], root_mass[SIZE];
-  double es[SIZE];
+  double radius_sum[SIZE], half_difference[SIZE], dashpot_scale[SIZE];
+  double es[SIZE]; // the tangential spring (N)
 };
 
 // What will be needed soon after the pairs of a block: the rows that no block has read yet, and the bodies of the
@@ -33,10 +36,12 @@ struct Ahead {
 
 // The pairs as the kernels see them. Columns have one entry a pair.
 struct PairColumns {
-  PairGroup *groups; // one more may be read than there are
+  PairGroup *groups; // the loop may read one group past the end
   Forces<double> *slots;
-  double *en;                                          // of the incremental law
-  double *friction, *dashpots, *dashpot_n, *dashpot_t; // see Losses
+  double *const *memories;        // what the law remembers beside the tangential spring
+  const double *const *constants; // of the law, beside PairConstants
+  double *friction, *dashpots;    // lost, see Losses
+  double *const *last_dashpots;   // forces at the beginning of the step: along n and t, then those of what is added
   Ahead ahead{};
 };
 
@@ -56,9 +61,8 @@ public:
 
   std::vector<Segment> segments; // those of block k of the discs: first_segment[k] ... first_segment[k+1]-1
   std::vector<int> first_segment;
-  Column<double> en;                                       // of the incremental law only
-  Column<double> friction, dashpots, dashpot_n, dashpot_t; // see Losses; empty unless there are books
-  Column<PairForce> force;                                 // of the last step that was kept, see ForceSlots::of_pair
+  Column<double> friction, dashpots; // see Losses; empty unless there are books
+  Column<PairForce> force;           // of the last step that was kept, see ForceSlots::of_pair
 
   // Rows of the two discs of pair k; a belongs to the grain of the lower id.
   int a(int k) const { return group(k).a[k % SIZE] / ROW; }
@@ -73,20 +77,57 @@ public:
   void set_slot_a(int k, int slot) { group(k).slot_a[k % SIZE] = slot * SLOT; }
   void set_slot_b(int k, int slot) { group(k).slot_b[k % SIZE] = slot * SLOT; }
 
-  Pair<double> constants(int k) const {
+  PairConstants<double> constants(int k) const {
     const PairGroup &g = group(k);
-    return {g.radius_sum[k % SIZE], g.half_difference[k % SIZE], g.root_mass[k % SIZE]};
+    return {g.radius_sum[k % SIZE], g.half_difference[k % SIZE], g.dashpot_scale[k % SIZE]};
   }
-  void set_constants(int k, const Pair<double> &pair) {
+  void set_constants(int k, const PairConstants<double> &pair) {
     group(k).radius_sum[k % SIZE] = pair.radius_sum;
     group(k).half_difference[k % SIZE] = pair.half_difference;
-    group(k).root_mass[k % SIZE] = pair.root_mass;
+    group(k).dashpot_scale[k % SIZE] = pair.dashpot_scale;
+  }
+  // What the contact remembers; the tangential spring is the first of it.
+  std::array<double, 1 + MOST_NUMBERS> remembered(int k) const {
+    std::array<double, 1 + MOST_NUMBERS> all{es(k)};
+    for (std::size_t m = 0; m < memories.size(); m++)
+      all[1 + m] = memories[m][k];
+    return all;
+  }
+  void set_remembered(int k, const double *all) {
+    group(k).es[k % SIZE] = all[0];
+    for (std::size_t m = 0; m < memories.size(); m++)
+      memories[m][k] = all[1 + m];
   }
   double es(int k) const { return group(k).es[k % SIZE]; }
-  void set_es(int k, double es) { group(k).es[k % SIZE] = es; }
+  // Constants of the law.
+  std::array<double, MOST_NUMBERS> law_constants(int k) const {
+    std::array<double, MOST_NUMBERS> all{};
+    for (std::size_t c = 0; c < law_columns.size(); c++)
+      all[c] = law_columns[c][k];
+    return all;
+  }
+  void set_law_constants(int k, const double *all) {
+    for (std::size_t c = 0; c < law_columns.size(); c++)
+      law_columns[c][k] = all[c];
+  }
+  bool has_books() const { return !last_dashpots.empty(); }
+  std::array<double, 2 + MOST_NUMBERS> last_dashpots_of(int k) const {
+    std::array<double, 2 + MOST_NUMBERS> all{};
+    for (std::size_t d = 0; d < last_dashpots.size(); d++)
+      all[d] = last_dashpots[d][k];
+    return all;
+  }
+  void set_last_dashpots(int k, const double *all) {
+    for (std::size_t d = 0; d < last_dashpots.size(); d++)
+      last_dashpots[d][k] = all[d];
+  }
 
+  // How many numbers of its own a law has for a pair.
+  struct Width {
+    int memories = 0, constants = 0, last_dashpots = 0; // the last: 0 without books
+  };
   // Makes room for segments of these sizes, by block and material, all entries zero.
-  void lay_out(const std::vector<Material> &materials, const std::vector<int> &sizes, Law law, bool books = false) {
+  void lay_out(const std::vector<Material> &materials, const std::vector<int> &sizes, const Width &width) {
     segments.clear();
     first_segment.assign(1, 0);
     int next = 0;
@@ -99,9 +140,11 @@ public:
         first_segment.push_back(int(segments.size()));
     }
     groups.reset(next / SIZE + 1);
-    en.reset(law == Law::incremental ? next : 0);
-    for (auto *column : {&friction, &dashpots, &dashpot_n, &dashpot_t})
-      column->reset(books ? next : 0);
+    memories.lay_out(width.memories, next);
+    law_columns.lay_out(width.constants, next);
+    last_dashpots.lay_out(width.last_dashpots, next);
+    for (auto *column : {&friction, &dashpots})
+      column->reset(has_books() ? next : 0);
     force.reset(next);
   }
 
@@ -115,12 +158,13 @@ public:
   }
 
   PairColumns columns(Forces<double> *slots) {
-    return {groups.data(), slots, en.data(), friction.data(), dashpots.data(), dashpot_n.data(), dashpot_t.data()};
+    return {groups.data(),   slots,           memories.data(),     law_columns.data(),
+            friction.data(), dashpots.data(), last_dashpots.data()};
   }
 
   double bytes() const {
-    return double(groups.capacity()) * sizeof(PairGroup) +
-           double(en.capacity() + 4 * friction.capacity()) * sizeof(double) +
+    return double(groups.capacity()) * sizeof(PairGroup) + double(2 * friction.capacity()) * sizeof(double) +
+           memories.bytes() + law_columns.bytes() + last_dashpots.bytes() +
            double(force.capacity()) * sizeof(PairForce);
   }
 
@@ -130,7 +174,36 @@ private:
   const PairGroup &group(int k) const { return groups[k / SIZE]; }
   PairGroup &group(int k) { return groups[k / SIZE]; }
 
+  // Some columns, and where each begins.
+  class Columns {
+  public:
+    void lay_out(int count, int entries) {
+      columns.resize(count);
+      begins.clear();
+      for (Column<double> &column : columns) {
+        column.reset(entries);
+        begins.push_back(column.data());
+      }
+    }
+    std::size_t size() const { return columns.size(); }
+    bool empty() const { return columns.empty(); }
+    Column<double> &operator[](std::size_t k) { return columns[k]; }
+    const Column<double> &operator[](std::size_t k) const { return columns[k]; }
+    double *const *data() const { return begins.data(); }
+    double bytes() const {
+      double sum = 0;
+      for (const Column<double> &column : columns)
+        sum += double(column.capacity()) * sizeof(double);
+      return sum;
+    }
+
+  private:
+    std::vector<Column<double>> columns;
+    std::vector<double *> begins;
+  };
+
   Column<PairGroup> groups;
+  Columns memories, law_columns, last_dashpots;
 };
 
 } // namespace cdem

@@ -4,21 +4,14 @@
 #pragma once
 
 #include "clump_motion.h"
-#include "contact_law.h"
 #include "disc_motion.h"
 #include "force_slots.h"
+#include "rules.h"
 
 #include <string>
 #include <vector>
 
 namespace cdem {
-
-// What a loop over pairs is compiled for.
-struct ContactRules {
-  Law law = Law::direct;
-  bool limit_damping = false;
-  bool books = false; // of losses
-};
 
 struct Kernels {
   // The forces of pairs begin ... end-1, a segment of DiscPairs.

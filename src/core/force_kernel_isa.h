@@ -3,7 +3,11 @@
 #pragma once
 
 #include "force_kernel.h"
-#include "rows.h"
+#include "lane_io.h"
+#include "laws.h"
+
+#include <algorithm>
+#include <array>
 
 namespace cdem {
 namespace { // a copy for each instruction set, under no shared name
@@ -16,18 +20,48 @@ using Widest = double;
 constexpr int WIDTH = 1;
 #endif
 
-template <class T> NoLosses load_losses(const PairColumns &, int, NoLosses) { return {}; }
-template <class T> Losses<T> load_losses(const PairColumns &p, int k, Losses<T>) {
-  return {load(p.friction + k, T()), load(p.dashpots + k, T()), load(p.dashpot_n + k, T()), load(p.dashpot_t + k, T())};
-}
+// Columns of a pair's numbers: copies of the pointers, since the compiler must assume that what is stored may change
+// those in memory.
+template <int n, class Number> struct Numbers {
+  std::array<Number *, n> columns;
 
-void store_losses(const PairColumns &, int, const NoLosses &) {}
-template <class T> void store_losses(const PairColumns &p, int k, const Losses<T> &l) {
-  store(p.friction + k, l.friction);
-  store(p.dashpots + k, l.dashpots);
-  store(p.dashpot_n + k, l.dashpot_n);
-  store(p.dashpot_t + k, l.dashpot_t);
-}
+  explicit Numbers(Number *const *of) { std::copy_n(of, n, columns.begin()); }
+  template <class T> [[gnu::always_inline]] std::array<T, n> load_all(int k, T) const {
+    std::array<T, n> values;
+    for (int i = 0; i < n; i++)
+      values[i] = load(columns[i] + k, T());
+    return values;
+  }
+  template <class T> [[gnu::always_inline]] void store_all(int k, const std::array<T, n> &values) const {
+    for (int i = 0; i < n; i++)
+      store(columns[i] + k, values[i]);
+  }
+};
+
+// The books of eight pairs, if somebody keeps them.
+template <class Books> struct BookColumns {
+  explicit BookColumns(const PairColumns &) {}
+  NoLosses load_all(int) const { return {}; }
+  void store_all(int, const NoLosses &) const {}
+};
+template <class T, std::size_t n> struct BookColumns<Losses<T, n>> {
+  double *const friction, *const dashpots;
+  const Numbers<2, double> first;
+  const Numbers<int(n), double> more;
+
+  explicit BookColumns(const PairColumns &p)
+      : friction(p.friction), dashpots(p.dashpots), first(p.last_dashpots), more(p.last_dashpots + 2) {}
+  [[gnu::always_inline]] Losses<T, n> load_all(int k) const {
+    const auto [fn, ft] = first.load_all(k, T());
+    return {load(friction + k, T()), load(dashpots + k, T()), fn, ft, more.load_all(k, T())};
+  }
+  [[gnu::always_inline]] void store_all(int k, const Losses<T, n> &l) const {
+    store(friction + k, l.friction);
+    store(dashpots + k, l.dashpots);
+    first.store_all(k, std::array<T, 2>{l.dashpot_n, l.dashpot_t});
+    more.store_all(k, l.more);
+  }
+};
 
 constexpr int LINE = 64; // of the cache, bytes
 
@@ -47,14 +81,17 @@ template <int lines> [[gnu::always_inline]] inline const void *prefetch(const vo
 }
 
 // Root and division of the next pairs are begun before the law is applied to these: see Distance.
-template <Law law, bool limit_damping, class Books, class T, bool fetches>
-void loop(const Disc<double> *discs, const PairColumns &columns, const Material &material, int begin, int end,
-          double dt) {
-  const PairColumns p = columns; // copies: what is stored below could otherwise change them
-  const Material m = material;
+template <class Law, class Books, class T, bool fetches>
+void loop(const Disc<double> *discs, const PairColumns &p, const Material &material, int begin, int end, double dt) {
+  const Material m = material; // a copy: the compiler must assume that what is stored may change it
+  const Numbers<Law::MEMORIES, double> memories(p.memories);
+  const Numbers<Law::CONSTANTS, const double> constants(p.constants);
+  const BookColumns<Books> book_columns(p);
+  Forces<double> *const slots = p.slots;
   constexpr int SIZE = PairGroup::SIZE;
   [[maybe_unused]] Ahead ahead = p.ahead;
-  PairGroup *group = p.groups + begin / SIZE, *const group_end = p.groups + (end + SIZE - 1) / SIZE;
+  PairGroup *const groups = p.groups,
+                   *group = groups + begin / SIZE, *const group_end = groups + (end + SIZE - 1) / SIZE;
   Relative<T> relative = load_relative(discs, group->a, group->b, T());
   Distance<T> distance = distance_of(relative);
   for (; group != group_end; ++group) {
@@ -66,37 +103,35 @@ void loop(const Disc<double> *discs, const PairColumns &columns, const Material 
       const Relative<T> next = load_relative(discs, next_group.a + next_lane, next_group.b + next_lane, T());
       const Distance<T> next_distance = distance_of(next);
 
-      [[maybe_unused]] const int k = int(group - p.groups) * SIZE + lane;
-      const Pair<T> pair{load(group->radius_sum + lane, T()), load(group->half_difference + lane, T()),
-                         load(group->root_mass + lane, T())};
-      History<T> history{load(group->es + lane, T()), T(0)};
-      if constexpr (law == Law::incremental)
-        history.en = load(p.en + k, T());
-      Books books = load_losses<T>(p, k, Books());
-      store_forces(p.slots, group->slot_a + lane, group->slot_b + lane,
-                   contact_force<law, limit_damping, T>(relative, distance, pair, m, dt, history, books));
-      store_losses(p, k, books);
-      store(group->es + lane, history.es);
-      if constexpr (law == Law::incremental)
-        store(p.en + k, history.en);
+      [[maybe_unused]] const int k = int(group - groups) * SIZE + lane;
+      const PairConstants<T> pair{load(group->radius_sum + lane, T()), load(group->half_difference + lane, T()),
+                                  load(group->dashpot_scale + lane, T())};
+      T es = load(group->es + lane, T());
+      auto memory = memories.load_all(k, T());
+      Books books = book_columns.load_all(k);
+      store_forces(slots, group->slot_a + lane, group->slot_b + lane,
+                   Law::force(relative, distance, pair, constants.load_all(k, T()), m, dt, es, memory, books));
+      book_columns.store_all(k, books);
+      store(group->es + lane, es);
+      memories.store_all(k, memory);
       relative = next;
       distance = next_distance;
     }
   }
 }
 
-template <Law law, bool limit_damping, class Books, class T>
+template <class Law, class Books>
 void forces(const Disc<double> *discs, const PairColumns &columns, const Material &material, int begin, int end,
             double dt) {
-  columns.ahead.rows ? loop<law, limit_damping, Books, T, true>(discs, columns, material, begin, end, dt)
-                     : loop<law, limit_damping, Books, T, false>(discs, columns, material, begin, end, dt);
+  columns.ahead.rows ? loop<Law, Books, Widest, true>(discs, columns, material, begin, end, dt)
+                     : loop<Law, Books, Widest, false>(discs, columns, material, begin, end, dt);
 }
 
 void sum(const SlotBlock &block, Forces<double> *sums, int first) {
   for_each_sum(block, block.end, [=](int disc, Four sum) { store_raw(&sums[disc - first].fx, sum); });
 }
 
-// Calls loop(body_forces, travels) with what it is to know when it is compiled.
+// Calls loop(body_forces, travels) with both choices as constants that the compiler knows.
 template <class Loop> [[gnu::always_inline]] inline void choose(const StepRule &step, const Travel *travel, Loop loop) {
   using std::false_type, std::true_type;
   if (step.has_body_forces())
@@ -139,19 +174,12 @@ void advance_clumps(const ClumpColumns &columns, int begin, int end, const StepR
   });
 }
 
-template <Law law, class Books> auto forces_of(bool limit_damping) {
-  return limit_damping ? forces<law, true, Books, Widest> : forces<law, false, Books, Widest>;
-}
-
-template <class Books> auto forces_of(Law law, bool limit_damping) {
-  return law == Law::direct ? forces_of<Law::direct, Books>(limit_damping)
-                            : forces_of<Law::incremental, Books>(limit_damping);
-}
-
 Kernels widest_kernels(const ContactRules &rules) {
-  return {rules.books ? forces_of<Losses<Widest>>(rules.law, rules.limit_damping)
-                      : forces_of<NoLosses>(rules.law, rules.limit_damping),
-          sum, expand_clumps, advance_clumps, advance_block};
+  const auto loop_over_pairs = with_law(rules, [&rules](auto law) {
+    using Law = decltype(law);
+    return rules.books ? forces<Law, typename Law::template Books<Widest>> : forces<Law, NoLosses>;
+  });
+  return {loop_over_pairs, sum, expand_clumps, advance_clumps, advance_block};
 }
 
 } // namespace

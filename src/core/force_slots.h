@@ -6,7 +6,6 @@
 #pragma once
 
 #include "column.h"
-#include "contact_law.h"
 #include "disc_pairs.h"
 
 #include <algorithm>

@@ -17,8 +17,9 @@
 // stiffness k, damping c and mass m is stable while k dt^2 + 2 (1 + w) c dt < 4 m.
 #pragma once
 
-#include "contact_law.h"
+#include "declaration.h"
 #include "grain_shape.h"
+#include "material.h"
 
 #include <algorithm>
 #include <array>
@@ -44,11 +45,23 @@ struct Mode {
   }
 };
 
-// Of grains of mass m (kg) that have contacts of this material with their like all around.
-inline std::array<Mode, 2> stiffest_modes(const Material &material, const GrainShape &shape, double m) {
-  const double root_mass = 2 * std::sqrt(m / 2);
+// A grain among its like all around. The inertia is that over m r^2, r its circumscribed radius.
+struct AmongItsLike {
+  const GrainShape &shape;
+  double mass, radius, inertia;
+  Material material;
+  Resistance added; // of one contact, beside springs and dashpots of the material
+};
+
+// Moving; turning all the same way; and turning against each other, which only what is added resists. A disc cannot do
+// both of the latter at one contact; for grains of several discs they are taken together.
+inline std::array<Mode, 3> stiffest_modes(const AmongItsLike &grain) {
+  const GrainShape &shape = grain.shape;
+  const Material &m = grain.material;
+  const double dashpot_scale = 2 * std::sqrt(grain.mass / 2);
+  const bool is_disc = shape.discs().size() == 1;
   auto moving = [&](double normal, double tangential) {
-    if (shape.discs().size() == 1)
+    if (is_disc)
       return 6 * normal + 3 * tangential;
     return shape.neighbours() * (normal + tangential) + shape.unevenness() * std::fabs(normal - tangential);
   };
@@ -56,19 +69,29 @@ inline std::array<Mode, 2> stiffest_modes(const Material &material, const GrainS
     return 2 * (normal * shape.normal_levers() + tangential * shape.tangential_levers());
   };
   auto mode = [&](auto sum, double mass) {
-    return Mode{sum(material.kn, material.ks), root_mass * sum(material.dn, material.ds), mass};
+    return Mode{sum(m.kn + grain.added.normal.stiffness, m.ks + grain.added.tangent.stiffness),
+                dashpot_scale * sum(m.dn, m.ds) + sum(grain.added.normal.dashpot, grain.added.tangent.dashpot), mass};
   };
-  return {mode(moving, m), mode(turning, m * shape.inertia())};
+  const Mode sideways = mode(moving, grain.mass), turns = mode(turning, grain.mass * grain.inertia);
+  const double per_contact = 2 * shape.neighbours() / (grain.radius * grain.radius);
+  const Resistance::Part &against = grain.added.turning;
+  const Mode rolls{(is_disc ? 0 : turns.stiffness) + per_contact * against.stiffness,
+                   turns.damping + per_contact * against.dashpot, turns.mass};
+  return {sideways, turns, rolls};
 }
 
-inline double step_limit(const Material &material, const GrainShape &shape, double m) {
-  const auto [moving, turning] = stiffest_modes(material, shape, m);
-  return std::min(moving.step_limit(), turning.step_limit());
+inline double step_limit(const AmongItsLike &grain) {
+  double least = INFINITY;
+  for (const Mode &mode : stiffest_modes(grain))
+    least = std::min(least, mode.step_limit());
+  return least;
 }
 
-inline double prediction_weight(const Material &material, const GrainShape &shape, double m, double dt) {
-  const auto [moving, turning] = stiffest_modes(material, shape, m);
-  return std::min(moving.prediction_weight(dt), turning.prediction_weight(dt));
+inline double prediction_weight(const AmongItsLike &grain, double dt) {
+  double least = 1;
+  for (const Mode &mode : stiffest_modes(grain))
+    least = std::min(least, mode.prediction_weight(dt));
+  return least;
 }
 
 } // namespace cdem

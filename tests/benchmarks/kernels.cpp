@@ -32,7 +32,7 @@ struct Packing {
     starts.push_back(n);
     std::vector<int> sizes(starts.size() - 1, 0), next(sizes.size());
     for_each_pair(side, [&](int i, int) { sizes[i / BLOCK]++; });
-    pairs.lay_out({material(1e8, 2.5e7, 0.215, 0.215, 0.5)}, sizes, Law::direct);
+    pairs.lay_out({material(1e8, 2.5e7, 0.215, 0.215, 0.5)}, sizes, {});
     for (std::size_t k = 0; k < sizes.size(); k++)
       next[k] = pairs.segments[k].begin;
     for_each_pair(side, [&](int i, int j) {

@@ -51,7 +51,7 @@ CASES: dict[str, tuple[str, str, str]] = {
     "instructions of no machine": ("limit_damping no", "instructions sse9", r"instructions sse9: this machine has .*baseline"),
     "limit_damping neither yes nor no": ("limit_damping no", "limit_damping 1", r"Pair style cdem: limit_damping 1"),
     "too few coefficients": ("0.215 0.215 27", "0.215 27", r"Pair coeff cdem has 6 arguments"),
-    "too many coefficients": ("0.215 27", "0.215 27 1", r"Pair coeff cdem has 8 arguments"),
+    "too many coefficients": ("0.215 27", "0.215 27 1", r"Pair coeff cdem: 1 after kn ks hn hs phi: must be rolling or cohesion"),
     "kn zero": ("* * 1e8", "* * 0", r"Pair coeff cdem: kn = 0"),
     "kn negative": ("* * 1e8", "* * -1e8", r"Pair coeff cdem: kn = -1e8"),
     "kn infinite": ("* * 1e8", "* * 1e999", r"Pair coeff cdem: kn = 1e999"),

@@ -30,10 +30,15 @@ struct Packing {
   std::vector<Grain> grains;
   std::vector<Contact> contacts;
   Material material;
+  Resistance::Part rolling{}; // against turning on each other
 
   double root_mass(const Contact &c) const {
     const double a = grains[c.a].mass, b = grains[c.b].mass;
     return 2 * std::sqrt(b == 0 ? a : a == 0 ? b : a * b / (a + b));
+  }
+  Resistance resistance(const Contact &c) const {
+    const double root = root_mass(c);
+    return {{material.kn, material.dn * root}, {material.ks, material.ds * root}, rolling};
   }
   int own() const { return int(grains.size()); }
   Grain inverse(int i) const {
@@ -43,9 +48,9 @@ struct Packing {
   template <class Visit> void for_each_touch(int i, Visit visit) const {
     for (const Contact &c : contacts) {
       if (c.a == i)
-        visit(Touch{c.b, c.nx, c.ny, c.ax, c.ay, root_mass(c), &material});
+        visit(Touch{c.b, c.nx, c.ny, c.ax, c.ay, resistance(c)});
       if (c.b == i)
-        visit(Touch{c.a, -c.nx, -c.ny, c.bx, c.by, root_mass(c), &material});
+        visit(Touch{c.a, -c.nx, -c.ny, c.bx, c.by, resistance(c)});
     }
   }
   double limit(double enough = INFINITY) const {
@@ -64,14 +69,19 @@ struct Packing {
     for (int k = 0; k < 4000; k++) {
       std::fill(f.begin(), f.end(), 0.0);
       for (const Contact &c : contacts) {
-        const double root = root_mass(c);
-        const std::array<std::array<double, 4>, 2> directions{
-            {{c.nx, c.ny, material.kn, material.dn * root}, {-c.ny, c.nx, material.ks, material.ds * root}}};
-        for (const auto &[x, y, stiffness, damping] : directions) {
-          const double turn_a = c.ax * y - c.ay * x, turn_b = c.bx * y - c.by * x;
+        const Resistance r = resistance(c);
+        struct Direction {
+          double x, y, turn_a, turn_b;
+          Resistance::Part part;
+        };
+        auto along = [&c](double x, double y, const Resistance::Part &part) {
+          return Direction{x, y, c.ax * y - c.ay * x, c.bx * y - c.by * x, part};
+        };
+        for (const auto &[x, y, turn_a, turn_b, part] :
+             {along(c.nx, c.ny, r.normal), along(-c.ny, c.nx, r.tangent), Direction{0, 0, 1, 1, r.turning}}) {
           const double *const ua = &u[3 * c.a], *const ub = &u[3 * c.b];
           const double slip = x * (ua[0] - ub[0]) + y * (ua[1] - ub[1]) + turn_a * ua[2] - turn_b * ub[2];
-          const double force = (stiffness * dt + 2 * damping) * dt * slip;
+          const double force = (part.stiffness * dt + 2 * part.dashpot) * dt * slip;
           for (const auto &[grain, sign, turn] : {std::tuple{c.a, 1, turn_a}, std::tuple{c.b, -1, turn_b}}) {
             f[3 * grain] += sign * force * x;
             f[3 * grain + 1] += sign * force * y;

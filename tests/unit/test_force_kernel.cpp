@@ -5,6 +5,8 @@
 #include "core/disc_pairs.h"
 #include "core/force_kernel.h"
 #include "core/force_slots.h"
+#include "core/law_table.h"
+#include "core/laws.h"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +39,7 @@ struct Scene {
   ForceSlots slots;
 
   Scene(int n, const ContactRules &rules) {
-    const Law law = rules.law;
+    const LawTable law(rules);
     std::mt19937 random(7);
     std::uniform_real_distribution<double> unit(-1, 1);
     for (int i = 0; i <= n; i++) {
@@ -51,15 +53,21 @@ struct Scene {
     }
     // Two blocks of discs; the pair between them belongs to the first, and the last disc is not summed.
     const int middle = n / 2 + 1;
-    pairs.lay_out({material(1e8, 2.5e7, 0.215, 0.3, 0.5)}, {middle, n - middle}, law, rules.books);
+    pairs.lay_out({material(1e8, 2.5e7, 0.215, 0.3, 0.5)}, {middle, n - middle},
+                  {law.memories(), law.constants(), rules.books ? 2 + law.books() : 0});
     for (int pair = 0; pair < n; pair++) {
       const int k = pair < middle ? pair : pairs.segments[1].begin + pair - middle;
       pairs.set_discs(k, pair % 3 ? pair : pair + 1, pair % 3 ? pair + 1 : pair);
       const double gap = 2e-6 * unit(random), half_difference = 1e-4 * unit(random);
       pairs.set_constants(k, {2e-3 + gap, half_difference, 0.013});
-      pairs.set_es(k, unit(random));
-      if (law == Law::incremental)
-        pairs.en[k] = unit(random);
+      std::array<double, 1 + MOST_NUMBERS> remembered{};
+      for (int m = 0; m <= law.memories(); m++)
+        remembered[m] = unit(random);
+      pairs.set_remembered(k, remembered.data());
+      std::array<double, MOST_NUMBERS> constants{};
+      for (int c = 0; c < law.constants(); c++)
+        constants[c] = 1 + unit(random);
+      pairs.set_law_constants(k, constants.data());
     }
     slots.build(
         pairs, {0, middle, n}, [](int row) { return row; }, is_wall);
@@ -78,29 +86,38 @@ struct Scene {
   }
 };
 
-template <Law law, bool limit, bool books>
+template <class Law, bool books>
 void plain_forces(const Disc<double> *discs, const PairColumns &p, const Material &m, int begin, int end, double dt) {
   for (int k = begin; k < end; k++) {
     PairGroup &g = p.groups[k / PairGroup::SIZE];
     const int lane = k % PairGroup::SIZE;
-    const Pair<double> pair{g.radius_sum[lane], g.half_difference[lane], g.root_mass[lane]};
-    History<double> history{g.es[lane], law == Law::incremental ? p.en[k] : 0};
-    Losses<double> losses{};
-    if (books)
-      losses = {p.friction[k], p.dashpots[k], p.dashpot_n[k], p.dashpot_t[k]};
+    const PairConstants<double> pair{g.radius_sum[lane], g.half_difference[lane], g.dashpot_scale[lane]};
+    std::array<double, Law::MEMORIES> memory;
+    for (std::size_t i = 0; i < memory.size(); i++)
+      memory[i] = p.memories[i][k];
+    std::array<double, Law::CONSTANTS> constants;
+    for (std::size_t i = 0; i < constants.size(); i++)
+      constants[i] = p.constants[i][k];
+    typename Law::template Books<double> losses{};
+    if (books) {
+      losses = {p.friction[k], p.dashpots[k], p.last_dashpots[0][k], p.last_dashpots[1][k]};
+      for (std::size_t i = 0; i < losses.more.size(); i++)
+        losses.more[i] = p.last_dashpots[2 + i][k];
+    }
     const auto u = relative(discs[g.a[lane] / PairGroup::ROW], discs[g.b[lane] / PairGroup::ROW]);
-    const auto f = contact_force<law, limit>(u, distance_of(u), pair, m, dt, history, losses);
+    const auto f = Law::force(u, distance_of(u), pair, constants, m, dt, g.es[lane], memory, losses);
     if (books) {
       p.friction[k] = losses.friction;
       p.dashpots[k] = losses.dashpots;
-      p.dashpot_n[k] = losses.dashpot_n;
-      p.dashpot_t[k] = losses.dashpot_t;
+      p.last_dashpots[0][k] = losses.dashpot_n;
+      p.last_dashpots[1][k] = losses.dashpot_t;
+      for (std::size_t i = 0; i < losses.more.size(); i++)
+        p.last_dashpots[2 + i][k] = losses.more[i];
     }
     p.slots[g.slot_a[lane] / PairGroup::SLOT] = f;
     p.slots[g.slot_b[lane] / PairGroup::SLOT] = opposite(f);
-    g.es[lane] = history.es;
-    if (law == Law::incremental)
-      p.en[k] = history.en;
+    for (std::size_t i = 0; i < memory.size(); i++)
+      p.memories[i][k] = memory[i];
   }
 }
 
@@ -137,8 +154,23 @@ void plain_advance(const SlotBlock &block, Disc<double> *discs, Body *bodies, co
     }
 }
 
-template <Law law, bool limit, bool books> Kernels plain() {
-  return {plain_forces<law, limit, books>, nullptr, nullptr, nullptr, plain_advance};
+Kernels plain(const ContactRules &rules) {
+  const auto forces = with_law(rules, [&rules](auto law) {
+    using Law = decltype(law);
+    return rules.books ? plain_forces<Law, true> : plain_forces<Law, false>;
+  });
+  return {forces, nullptr, nullptr, nullptr, plain_advance};
+}
+
+// Of all laws there are.
+std::vector<ContactRules> all_rules() {
+  std::vector<ContactRules> all;
+  for (int accumulation = 0; accumulation < ACCUMULATIONS; accumulation++)
+    for (unsigned additions = 0; additions < 1u << ADDITIONS; additions++)
+      for (bool limit : {false, true})
+        for (bool books : {false, true})
+          all.push_back({accumulation, additions, limit, books});
+  return all;
 }
 
 template <class T> bool same_bits(const Column<T> &a, const Column<T> &b, int n) {
@@ -157,13 +189,11 @@ void compare(const Kernels &expected_by, const Kernels &got_by, const ContactRul
     EXPECT_TRUE(same_bits(expected.travel, got.travel, n)) << n << " pairs";
     for (const auto &segment : got.pairs.segments)
       for (int k = segment.begin; k < segment.end; k++) {
-        EXPECT_EQ(expected.pairs.es(k), got.pairs.es(k)) << n << " pairs";
-        if (rules.law == Law::incremental) {
-          EXPECT_EQ(expected.pairs.en[k], got.pairs.en[k]) << n << " pairs";
-        }
+        EXPECT_EQ(expected.pairs.remembered(k), got.pairs.remembered(k)) << n << " pairs";
         if (rules.books) {
           EXPECT_EQ(expected.pairs.friction[k], got.pairs.friction[k]) << n << " pairs";
           EXPECT_EQ(expected.pairs.dashpots[k], got.pairs.dashpots[k]) << n << " pairs";
+          EXPECT_EQ(expected.pairs.last_dashpots_of(k), got.pairs.last_dashpots_of(k)) << n << " pairs";
         }
       }
   }
@@ -172,27 +202,48 @@ void compare(const Kernels &expected_by, const Kernels &got_by, const ContactRul
 } // namespace
 
 TEST(ForceKernel, BaselineHasTheBitsOfThePlainLoop) {
-  auto check = [](const Kernels &plain, const ContactRules &rules) { compare(plain, kernels_baseline(rules), rules); };
-  check(plain<Law::direct, false, false>(), {Law::direct, false, false});
-  check(plain<Law::direct, false, true>(), {Law::direct, false, true});
-  check(plain<Law::direct, true, true>(), {Law::direct, true, true});
-  check(plain<Law::incremental, false, false>(), {Law::incremental, false, false});
-  check(plain<Law::incremental, true, false>(), {Law::incremental, true, false});
-  check(plain<Law::incremental, true, true>(), {Law::incremental, true, true});
+  for (const ContactRules &rules : all_rules())
+    compare(plain(rules), kernels_baseline(rules), rules);
 }
 
 TEST(ForceKernel, BooksDoNotChangeTheForces) {
-  Scene with(1000, {Law::direct, false, true}), without(1000, {});
-  for (int step = 0; step < 3; step++) {
-    with.step(kernels({Law::direct, false, true}, instruction_sets().front()));
-    without.step(kernels({}, instruction_sets().front()));
+  for (ContactRules rules : all_rules()) {
+    if (!rules.books)
+      continue;
+    Scene with(1000, rules), without(1000, rules);
+    const Kernels with_books = kernels(rules, instruction_sets().front());
+    rules.books = false;
+    const Kernels without_books = kernels(rules, instruction_sets().front());
+    for (int step = 0; step < 3; step++) {
+      with.step(with_books);
+      without.step(without_books);
+    }
+    EXPECT_TRUE(same_bits(with.discs, without.discs, 1000)) << rules.accumulation << ' ' << rules.additions;
   }
-  EXPECT_TRUE(same_bits(with.discs, without.discs, 1000));
+}
+
+TEST(ForceKernel, AnAdditionOfZeroChangesNothing) {
+  for (ContactRules rules : all_rules()) {
+    if (!rules.additions)
+      continue;
+    Scene none(1000, rules), zero(1000, rules);
+    const std::array<double, MOST_NUMBERS> constants{};
+    for (const auto &segment : zero.pairs.segments)
+      for (int k = segment.begin; k < segment.end; k++)
+        zero.pairs.set_law_constants(k, constants.data());
+    zero.step(kernels(rules, instruction_sets().front()));
+    rules.additions = 0;
+    none.step(kernels(rules, instruction_sets().front()));
+    for (int i = 0; i < 1000; i++) {
+      EXPECT_EQ(none.discs[i].vx, zero.discs[i].vx);
+      EXPECT_EQ(none.discs[i].omega, zero.discs[i].omega);
+    }
+  }
 }
 
 TEST(ForceKernel, FusedOnesDifferByRoundingOnly) {
   Scene expected(1000, {}), got(1000, {});
-  expected.step(plain<Law::direct, false, false>());
+  expected.step(plain({}));
   got.step(kernels({}, instruction_sets().front()));
   for (int i = 0; i < 1000; i++) {
     EXPECT_NEAR(expected.discs[i].vx, got.discs[i].vx, 1e-11) << i;
@@ -205,9 +256,7 @@ TEST(ForceKernel, FusedOnesDifferByRoundingOnly) {
 TEST(ForceKernel, Avx2AndAvx512HaveTheSameBits) {
   if (!__builtin_cpu_supports("avx512vl"))
     GTEST_SKIP() << "no AVX-512 here";
-  for (Law law : {Law::direct, Law::incremental})
-    for (bool limit : {false, true})
-      for (bool books : {false, true})
-        compare(kernels_avx2({law, limit, books}), kernels_avx512({law, limit, books}), {law, limit, books});
+  for (const ContactRules &rules : all_rules())
+    compare(kernels_avx2(rules), kernels_avx512(rules), rules);
 }
 #endif

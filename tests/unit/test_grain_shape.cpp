@@ -446,7 +446,7 @@ double lattice_eigenvalue(const Tiling &tiling, double kn, double ks) {
 double eigenvalue_of_the_limit(const Tiling &tiling, double kn, double ks) {
   const GrainShape shape(discs_of(tiling));
   const double radius = radius_of(shape, discs_of(tiling)), mass = shape.area() * radius * radius / M_PI;
-  const double step = step_limit(material(kn, ks, 0, 0, 0.5), shape, mass);
+  const double step = step_limit({shape, mass, 1, shape.inertia(), material(kn, ks, 0, 0, 0.5), {}});
   return 4 / (step * step);
 }
 
@@ -503,9 +503,11 @@ TEST(StepLimit, Dashpots) {
 
   // h for a disc: c = 2 h sqrt(k m/2), so g = 2 h sqrt(m/(2 k)).
   const double k = 1e8, m = 3e-4, h = 0.215, g = 2 * h * std::sqrt(m / 2 / k);
-  const double damped = step_limit(material(k, 0, h, h, 0.5), GrainShape::single(), m);
+  const GrainShape disc = GrainShape::single();
+  auto limit = [&](double ratio) { return step_limit({disc, m, 1, 0.5, material(k, 0, ratio, ratio, 0.5), {}}); };
+  const double damped = limit(h);
   EXPECT_NEAR((damped * damped + 2 * g * damped) * 6 * k, 4 * m, 1e-12 * m);
-  EXPECT_LT(damped, step_limit(material(k, 0, 0, 0, 0.5), GrainShape::single(), m));
+  EXPECT_LT(damped, limit(0));
 }
 
 } // namespace

@@ -69,14 +69,35 @@ TEST(Mode, SmallStepsTakeTheFullPrediction) {
     EXPECT_EQ(m.prediction_weight(0.3 * m.step_limit()), 1) << m.damping;
 }
 
+AmongItsLike disc_among_its_like(const Material &m, const Resistance &added = {}) {
+  static const GrainShape disc = GrainShape::single();
+  return {disc, 3e-4, 2e-3, 0.5, m, added};
+}
+
 TEST(StepLimit, OfADiscIsThatOfTheTriangularLattice) {
   const double kn = 1e8, ks = 2.5e7, m = 3e-4, h = 0.2;
-  const GrainShape disc = GrainShape::single();
-  EXPECT_DOUBLE_EQ(step_limit(material(kn, ks, 0, 0, 0.5), disc, m),
-                   2 / std::sqrt(std::max(6 * kn + 3 * ks, 24 * ks) / m));
-  EXPECT_DOUBLE_EQ(step_limit(material(kn, kn, 0, 0, 0.5), disc, m), 2 / std::sqrt(24 * kn / m));
-  EXPECT_DOUBLE_EQ(step_limit(material(kn, 0, 0, 0, 0.5), disc, m), 2 / std::sqrt(6 * kn / m));
-  EXPECT_LT(step_limit(material(kn, ks, h, h, 0.5), disc, m), step_limit(material(kn, ks, 0, 0, 0.5), disc, m));
+  auto limit = [](double kn, double ks, double h) {
+    return step_limit(disc_among_its_like(material(kn, ks, h, h, 0.5)));
+  };
+  EXPECT_DOUBLE_EQ(limit(kn, ks, 0), 2 / std::sqrt(std::max(6 * kn + 3 * ks, 24 * ks) / m));
+  EXPECT_DOUBLE_EQ(limit(kn, kn, 0), 2 / std::sqrt(24 * kn / m));
+  EXPECT_DOUBLE_EQ(limit(kn, 0, 0), 2 / std::sqrt(6 * kn / m));
+  EXPECT_LT(limit(kn, ks, h), limit(kn, ks, 0));
+}
+
+// Six neighbours that all turn the other way: 12 k_r theta on each.
+TEST(StepLimit, KnowsWhatResistsTurningOnEachOther) {
+  const double stiffness = 1e3, m = 3e-4, r = 2e-3;
+  Resistance added;
+  added.turning.stiffness = stiffness;
+  EXPECT_DOUBLE_EQ(step_limit(disc_among_its_like(material(1e-6, 0, 0, 0, 0.5), added)),
+                   2 / std::sqrt(12 * stiffness / (0.5 * m * r * r)));
+}
+
+TEST(StepLimit, ALargerInertiaTurnsMoreSlowly) {
+  AmongItsLike grain = disc_among_its_like(material(1e8, 1e8, 0, 0, 0.5)), heavy = grain;
+  heavy.inertia = 2 * grain.inertia; // turning decides as long as k_s = k_n
+  EXPECT_DOUBLE_EQ(step_limit(heavy), std::sqrt(2.0) * step_limit(grain));
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "contacts/fix_cdem_history.h"
 
 #include "core/grain_shape.h"
+#include "core/rules.h"
 #include "host/compat.h"
 #include "host/find_fix.h"
 #include "host/packed_state.h"
@@ -18,11 +19,14 @@
 using namespace LAMMPS_NS;
 
 namespace {
-constexpr int PER_CONTACT = 5;
 constexpr tagint NOBODY = 0;
+constexpr int VERSION = 1; // of what restart files keep
 
-// Numbers that a grain with so many contacts is packed into.
-constexpr int packed_size(int contacts) { return 2 + PER_CONTACT * contacts; }
+// The names of the numbers, in restart files.
+struct Names {
+  int count;
+  char name[1 + cdem::MOST_NUMBERS][16];
+};
 
 static_assert(cdem::GrainShape::MOST_DISCS <= SHRT_MAX); // what a Contact has room for
 } // namespace
@@ -56,17 +60,36 @@ void FixCDEMHistory::make_room(const std::vector<int> &count_of, const std::vect
     next += count_of[i];
   }
   contacts.resize(next);
+  numbers.resize(next * names.size());
 }
 
 void FixCDEMHistory::expect_at_most(int most) { maxexchange = packed_size(most); }
 
-const FixCDEMHistory::Contact *FixCDEMHistory::find_contact(int i, tagint partner, int own_disc, int other_disc) const {
-  for (int k = first[i]; k < first[i] + count[i]; k++) {
-    const Contact &c = contacts[k];
-    if (c.partner == partner && c.own_disc == own_disc && c.other_disc == other_disc)
-      return &c;
-  }
+void FixCDEMHistory::add(int i, const Contact &contact, const double *remembered) {
+  const int k = first[i] + count[i]++;
+  contacts[k] = contact;
+  std::copy_n(remembered, names.size(), &numbers[k * names.size()]);
+}
+
+const double *FixCDEMHistory::find(int i, const Contact &contact) const {
+  for (int k = first[i]; k < first[i] + count[i]; k++)
+    if (contacts[k] == contact)
+      return &numbers[k * names.size()];
   return nullptr;
+}
+
+void FixCDEMHistory::remember(const std::vector<cdem::Remembered> &declared) {
+  std::vector<Number> now;
+  for (const auto &[name, unit, odd] : declared)
+    now.push_back({name, odd});
+  std::vector<double> renewed(contacts.size() * now.size(), 0);
+  for (std::size_t n = 0; n < now.size(); n++)
+    for (std::size_t m = 0; m < names.size(); m++)
+      if (now[n].name == names[m].name)
+        for (std::size_t k = 0; k < contacts.size(); k++)
+          renewed[k * now.size() + n] = numbers[k * names.size() + m];
+  numbers = std::move(renewed);
+  names = std::move(now);
 }
 
 // The next rebuild, and the next run, may find other grains, in another order: from here on the history is with the
@@ -118,10 +141,20 @@ void FixCDEMHistory::setup_pre_neighbor() {
   for (int i = 0; i < atom->nlocal; i++) {
     for (int k = first[i]; k < first[i] + count[i]; k++) {
       const auto partner = now.find(contacts[k].partner);
-      contacts[k].partner = partner == now.end() ? NOBODY : partner->second;
+      const tagint known = partner == now.end() ? NOBODY : partner->second;
+      if ((owner[i] < contacts[k].partner) != (atom->tag[i] < known))
+        swap_sides(k);
+      contacts[k].partner = known;
     }
     owner[i] = atom->tag[i];
   }
+}
+
+// The grain of the lower id is another one now.
+void FixCDEMHistory::swap_sides(int k) {
+  for (std::size_t m = 0; m < names.size(); m++)
+    if (names[m].odd)
+      numbers[k * names.size() + m] *= -1;
 }
 
 int FixCDEMHistory::pack_forward_comm(int n, int *list, double *buf, int, int *) {
@@ -135,17 +168,26 @@ void FixCDEMHistory::unpack_forward_comm(int n, int first_ghost, double *buf) {
     owner[first_ghost + k] = (tagint)ubuf(buf[k]).i;
 }
 
-// Called before the grains are packed. LAMMPS expects a global block: an empty one.
+// Called before the grains are packed.
 void FixCDEMHistory::write_restart(FILE *fp) {
   copy_from_list();
-  const int size = 0;
-  if (comm->me == 0)
-    fwrite(&size, sizeof(int), 1, fp);
+  if (comm->me != 0)
+    return;
+  Names file{int(names.size()), {}};
+  for (std::size_t m = 0; m < names.size(); m++)
+    names[m].name.copy(file.name[m], sizeof(file.name[m]) - 1);
+  Shearbox::write_state(fp, VERSION, file);
 }
 
+void FixCDEMHistory::restart(char *buf) {
+  const auto file = Shearbox::read_state<Names>(lmp, style, VERSION, buf);
+  names.clear();
+  for (int m = 0; m < file.count; m++)
+    names.push_back({file.name[m], false});
+}
 double FixCDEMHistory::memory_usage() {
   return double((first.capacity() + count.capacity()) * sizeof(int) + owner.capacity() * sizeof(tagint) +
-                contacts.capacity() * sizeof(Contact));
+                contacts.capacity() * sizeof(Contact) + numbers.capacity() * sizeof(double));
 }
 
 void FixCDEMHistory::grow_arrays(int nmax) {
@@ -177,8 +219,7 @@ int FixCDEMHistory::pack(int i, double *buf) const {
     *out++ = ubuf(c.partner).d;
     *out++ = c.own_disc;
     *out++ = c.other_disc;
-    *out++ = c.es;
-    *out++ = c.en;
+    out = std::copy_n(&numbers[k * names.size()], names.size(), out);
   }
   return int(out - buf);
 }
@@ -189,8 +230,11 @@ int FixCDEMHistory::unpack(int i, const double *buf) {
   owner[i] = (tagint)ubuf(*in++).i;
   maxexchange = std::max(maxexchange, packed_size(count[i]));
   first[i] = int(contacts.size());
-  for (int k = 0; k < count[i]; k++, in += PER_CONTACT)
-    contacts.push_back({(tagint)ubuf(in[0]).i, short(in[1]), short(in[2]), in[3], in[4]});
+  for (int k = 0; k < count[i]; k++) {
+    contacts.push_back({(tagint)ubuf(in[0]).i, short(in[1]), short(in[2])});
+    numbers.insert(numbers.end(), in + 3, in + 3 + names.size());
+    in += 3 + names.size();
+  }
   return int(in - buf);
 }
 

@@ -5,10 +5,12 @@
 // too): the history follows.
 #pragma once
 
+#include "core/declaration.h"
 #include "host/glides.h"
 
 #include "fix.h"
 
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -29,12 +31,14 @@ class FixCDEMHistory : public Fix, public Glides {
 public:
   static constexpr const char *ID = "CDEM_HISTORY";
 
-  // A contact as one of its grains remembers it: the other grain, the disc of either, and the history in the sense of
-  // the pair, whose first disc belongs to the grain of the lower id.
+  // A contact as one of its grains knows it: the other grain, and the disc of either. What it remembers is in the sense
+  // of the pair, whose first disc belongs to the grain of the lower id.
   struct Contact {
     tagint partner;
     short own_disc, other_disc;
-    double es, en;
+    bool operator==(const Contact &c) const {
+      return partner == c.partner && own_disc == c.own_disc && other_disc == c.other_disc;
+    }
   };
 
   // The fix of this style, or null.
@@ -47,8 +51,12 @@ public:
   void make_room(const std::vector<int> &count, const std::vector<tagint> &ids);
   // No grain will have more contacts than this, until this is called again.
   void expect_at_most(int most);
-  void add(int i, const Contact &contact) { contacts[first[i] + count[i]++] = contact; }
-  const Contact *find_contact(int i, tagint partner, int own_disc, int other_disc) const;
+  void add(int i, const Contact &, const double *remembered);
+  // What the contact remembers, or null.
+  const double *find(int i, const Contact &) const;
+
+  // The numbers that contacts remember from now on. Those known by the same name before are kept, others begin at 0.
+  void remember(const std::vector<cdem::Remembered> &);
 
   int setmask() override;
   void pre_exchange() override;
@@ -64,6 +72,7 @@ public:
   int pack_exchange(int, double *) override;
   int unpack_exchange(int, double *) override;
   void write_restart(FILE *) override;
+  void restart(char *) override;
   int pack_restart(int, double *) override;
   void unpack_restart(int, int) override;
   int size_restart(int) override;
@@ -81,10 +90,19 @@ private:
 
   void agree_on_room();
   bool has_new_ids() const;
+  void swap_sides(int k);
+  // Numbers that a grain with so many contacts is packed into.
+  int packed_size(int n) const { return 2 + (3 + int(names.size())) * n; }
 
   std::vector<int> first, count; // per atom, into contacts
   std::vector<tagint> owner;     // the atom's id as its contacts know it
   std::vector<Contact> contacts; // arriving grains append; make_room() starts afresh
+  std::vector<double> numbers;   // of each contact, one after the other
+  struct Number {
+    std::string name;
+    bool odd; // see core/declaration.h
+  };
+  std::vector<Number> names; // of the numbers of a contact
 };
 
 } // namespace LAMMPS_NS

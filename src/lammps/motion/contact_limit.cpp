@@ -20,23 +20,26 @@ namespace {
 struct Packing {
   const PairCDEM &pair;
   const FixCDEMGrains &grains;
-  const Atom &atom;
+  int nlocal;
 
-  int own() const { return atom.nlocal; }
+  int own() const { return nlocal; }
 
   FixCDEMGrains::Inverse inverse(int i) const { return grains.inverse(i); }
 
   template <class Visit> void for_each_touch(int i, Visit visit) const {
-    const GrainRows &rows = pair.rows;
+    const DiscPairList &contacts = pair.contacts;
+    const GrainRows &rows = contacts.rows;
     const cdem::Disc<double> &centre = rows.of_grain(i);
     for (int own = rows.rows_of(i); own < rows.rows_of(i + 1); own++)
-      pair.for_each_touching(own, [&](int other, double root_mass) {
+      contacts.slots.for_each(own, [&](int k) {
+        if (contacts.overlap(k) <= 0)
+          return;
+        const int other = contacts.pairs.a(k) == own ? contacts.pairs.b(k) : contacts.pairs.a(k);
         const double dx = rows[own].x - rows[other].x, dy = rows[own].y - rows[other].y;
         const double distance = std::sqrt(dx * dx + dy * dy), nx = dx / distance, ny = dy / distance;
         const double lever = 0.5 * (distance + rows.radius(own) - rows.radius(other));
-        const int j = rows.grain(other);
-        visit(cdem::Touch{j, nx, ny, rows[own].x - lever * nx - centre.x, rows[own].y - lever * ny - centre.y,
-                          root_mass, &pair.material(atom.type[i], atom.type[j])});
+        visit(cdem::Touch{rows.grain(other), nx, ny, rows[own].x - lever * nx - centre.x,
+                          rows[own].y - lever * ny - centre.y, contacts.resistance(k)});
       });
   }
 };
@@ -52,7 +55,7 @@ double ContactLimit::find(double guess, double enough) {
     MPI_Allreduce(&x, &most, 1, MPI_DOUBLE, MPI_MAX, world);
     return most;
   };
-  const Packing packing{*pair, *FixCDEMGrains::find(lmp), *atom};
+  const Packing packing{*pair, *FixCDEMGrains::find(lmp), atom->nlocal};
   return cdem::ContactNetwork(packing).step_limit(guess, enough, weights, to_ghosts, largest);
 }
 

@@ -141,7 +141,7 @@ void FixCDEMIntegrate::init() {
 
 void FixCDEMIntegrate::reset_dt() {
   grains->weight = step.prediction_weight();
-  static_cast<PairCDEM *>(force->pair)->renew_constants();
+  static_cast<PairCDEM *>(force->pair)->contacts.renew_constants();
 }
 
 // Walls that move by themselves check that they hold no grains.

@@ -4,7 +4,6 @@
 #include "contacts/pair_cdem.h"
 #include "core/stability.h"
 #include "grains/fix_cdem_grains.h"
-#include "grains/fix_cdem_shape.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -59,7 +58,8 @@ void StepChoice::setup() {
 
 double StepChoice::prediction_weight() const {
   const double dt = update->dt;
-  const double least = scene_minimum([dt](const auto &...grain) { return cdem::prediction_weight(grain..., dt); });
+  const double least =
+      scene_minimum([dt](const cdem::AmongItsLike &grain) { return cdem::prediction_weight(grain, dt); });
   return std::min(least, 1.0); // infinite without grains
 }
 
@@ -71,9 +71,8 @@ template <class Value> double StepChoice::scene_minimum(Value value) const {
   for (int i = 0; i < atom->nlocal; i++) {
     if (!grains->is_free(i))
       continue;
-    const cdem::GrainShape &shape = FixCDEMShape::shape(lmp, atom->type[i]);
     for (int other = 1; other <= atom->ntypes; other++)
-      smallest = std::min(smallest, value(pair->material(atom->type[i], other), shape, atom->rmass[i]));
+      smallest = std::min(smallest, value(pair->among_its_like(i, other)));
   }
   double all;
   MPI_Allreduce(&smallest, &all, 1, MPI_DOUBLE, MPI_MIN, world);

@@ -27,11 +27,12 @@ VerletCDEM::VerletCDEM(LAMMPS *lmp, int narg, char **arg) : Verlet(lmp, narg, ar
 
 void VerletCDEM::init() {
   Verlet::init();
-  pair = dynamic_cast<PairCDEM *>(force->pair);
+  auto *const pair = dynamic_cast<PairCDEM *>(force->pair);
   integrate = FixCDEMIntegrate::find(lmp);
   grains = FixCDEMGrains::find(lmp);
   if (!pair)
     error->all(FLERR, "Run style verlet/cdem needs pair_style cdem");
+  contacts = &pair->contacts;
   statistics.clear();
   wall_bodies.clear();
   for (int i = 0; i < modify->nfix; i++) {
@@ -138,10 +139,10 @@ bool VerletCDEM::stopped() {
 // Steps until `target`, or until the neighbour list has to be rebuilt.
 void VerletCDEM::glide(bigint target) {
   timer->stamp();
-  reach = pair->largest_reach();
+  reach = contacts->largest_reach();
   measure_room();
   travelled = 0;
-  if (!rebuild_is_due(0, pair->rows.fastest(atom->nlocal)) && update->ntimestep < target)
+  if (!rebuild_is_due(0, contacts->rows.fastest(atom->nlocal)) && update->ntimestep < target)
     glide_on(target);
   timer->stamp(Timer::PAIR);
 }
@@ -149,11 +150,11 @@ void VerletCDEM::glide(bigint target) {
 void VerletCDEM::glide_on(bigint target) {
   find_walls();
   begin_step();
-  cdem::Fastest fastest = pair->rows.fastest(atom->nlocal);
+  cdem::Fastest fastest = contacts->rows.fastest(atom->nlocal);
   for (;;) {
-    pair->exchange_ghosts();
+    contacts->exchange_ghosts();
     const bool due = rebuild_is_due(1, fastest);
-    pair->refresh_list(stride);
+    contacts->refresh(stride);
     if (due || update->ntimestep == target || stopped())
       break;
     fastest = {};
@@ -161,22 +162,22 @@ void VerletCDEM::glide_on(bigint target) {
   }
   for (WallBody *fix : wall_bodies)
     fix->move_rows(nullptr);
-  pair->rows.write_back();
+  contacts->rows.write_back();
   comm->forward_comm(); // for those who look at ghosts
   force_clear();
-  pair->forces();
+  contacts->forces();
   integrate->post_force(0);
   modify->final_integrate();
 }
 
 // The first of the statistics is taken where the grains are moved, others by loops of their own.
 void VerletCDEM::step(cdem::Fastest &fastest) {
-  integrate->book_drag(pair->rows);
+  integrate->book_drag(contacts->rows);
   const auto first = statistics.begin(), end = statistics.end();
-  pair->forces_and_advance(rule, felt, fastest, first != end ? (*first)->travel() : nullptr);
+  contacts->forces_and_advance(rule, felt, fastest, first != end ? (*first)->travel() : nullptr);
   move_walls(fastest);
   if (first != end)
-    std::for_each(first + 1, end, [this](SumsSteps *fix) { fix->add(pair->rows); });
+    std::for_each(first + 1, end, [this](SumsSteps *fix) { fix->add(contacts->rows); });
 }
 
 // As Verlet does it, on the atoms' arrays.
@@ -188,10 +189,10 @@ void VerletCDEM::begin_step() {
     modify->post_integrate();
 
   rule = grains->step_rule();
-  pair->rows.take_bodies();
-  pair->rows.fill(0, atom->nlocal, rule.forward);
+  contacts->rows.take_bodies();
+  contacts->rows.fill(0, atom->nlocal, rule.forward);
   for (WallBody *fix : wall_bodies)
-    fix->move_rows(&pair->rows);
+    fix->move_rows(&contacts->rows);
 }
 
 void VerletCDEM::find_walls() {
@@ -215,7 +216,7 @@ void VerletCDEM::move_walls(cdem::Fastest &fastest) {
 }
 
 void VerletCDEM::measure_room() {
-  const double mine = pair->room();
+  const double mine = contacts->room();
   MPI_Allreduce(&mine, &room, 1, MPI_DOUBLE, MPI_MIN, world);
 }
 
@@ -232,7 +233,7 @@ bool VerletCDEM::rebuild_is_due(int steps, const cdem::Fastest &fastest) {
   stride = update->dt * cdem::Fastest{all[0], all[1], all[2]}.speed(all[3]);
   if (integrate->guard.suspects(stride)) {
     if (steps > 0)
-      pair->rows.write_back();
+      contacts->rows.write_back();
     integrate->guard.check();
   }
   travelled += steps * stride;

@@ -24,9 +24,9 @@
 
 namespace LAMMPS_NS {
 
+class DiscPairList;
 class FixCDEMGrains;
 class FixCDEMIntegrate;
-class PairCDEM;
 class SumsSteps;
 class WallBody;
 
@@ -55,7 +55,7 @@ private:
   void measure_room();
   bool rebuild_is_due(int steps, const cdem::Fastest &);
 
-  PairCDEM *pair = nullptr;
+  DiscPairList *contacts = nullptr;
   FixCDEMGrains *grains = nullptr;
   FixCDEMIntegrate *integrate = nullptr;
   std::vector<WallBody *> wall_bodies;

@@ -29,23 +29,38 @@ const std::vector<ComputeCDEMContacts::Field> ComputeCDEMContacts::all_fields = 
 };
 
 ComputeCDEMContacts::ComputeCDEMContacts(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg) {
-  for (int k = 3; k < narg; k++)
-    fields.push_back(field(arg[k]));
-  if (fields.empty())
-    fields = all_fields;
+  for (int k = 3; k < narg; k++) {
+    check(arg[k]);
+    names.push_back(arg[k]);
+  }
+  if (names.empty())
+    for (const Field &f : all_fields)
+      names.push_back(f.name);
   local_flag = 1;
-  size_local_cols = static_cast<int>(fields.size());
+  size_local_cols = static_cast<int>(names.size());
   size_local_rows = 0;
 }
 
-const ComputeCDEMContacts::Field &ComputeCDEMContacts::field(const char *name) const {
+// Which law is in use is known only when the run begins.
+void ComputeCDEMContacts::check(const std::string &name) const {
   std::string allowed;
-  for (const Field &f : all_fields) {
-    if (f.name == std::string(name))
+  for (const Field &f : all_fields)
+    allowed += " " + f.name;
+  for (const std::string &number : cdem::all_remembered())
+    allowed += " " + number;
+  if ((allowed + " ").find(" " + name + " ") == std::string::npos)
+    error->all(FLERR, "Compute cdem/contacts {}: unknown field {}; allowed:{}", id, name, allowed);
+}
+
+ComputeCDEMContacts::Field ComputeCDEMContacts::field(const std::string &name) const {
+  for (const Field &f : all_fields)
+    if (f.name == name)
       return f;
-    allowed += std::string(" ") + f.name;
-  }
-  error->all(FLERR, "Compute cdem/contacts {}: unknown field {}; allowed:{}", id, name, allowed);
+  const auto &remembered = pair->contacts.law.remembered();
+  for (std::size_t m = 0; m < remembered.size(); m++)
+    if (remembered[m].name == name)
+      return {name, [m](const Contact &c) { return c.remembered[m]; }};
+  error->all(FLERR, "Compute cdem/contacts {}: contacts of the law in use have no {}", id, name);
   return all_fields.front(); // not reached
 }
 
@@ -53,6 +68,9 @@ void ComputeCDEMContacts::init() {
   pair = dynamic_cast<PairCDEM *>(force->pair);
   if (!pair)
     error->all(FLERR, "Compute cdem/contacts {} needs pair_style cdem", id);
+  fields.clear();
+  for (const std::string &name : names)
+    fields.push_back(field(name));
 }
 
 // Ids of the group's atoms that this rank knows, ghosts included, in ascending order.
@@ -70,7 +88,7 @@ void ComputeCDEMContacts::compute_local() {
   const std::vector<tagint> group = members();
   const auto in_group = [&](tagint id) { return std::binary_search(group.begin(), group.end(), id); };
   contacts.clear();
-  for (const Contact &c : pair->contacts()) {
+  for (const Contact &c : pair->report.contacts()) {
     if (!c.mine || !in_group(c.tag_a) || !in_group(c.tag_b))
       continue;
     for (const Field &f : fields)

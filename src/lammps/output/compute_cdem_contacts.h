@@ -4,7 +4,7 @@
 // The contacts of pair style cdem as they are at the end of the step, each once for any number of ranks; between two
 // grains (or a grain and a wall disc) of which both are in the group.
 //
-// Local array: one row per contact, one column per field, in the order given; all of them if none is given:
+// Local array: one row per contact, one column per field, in the order given; all of these if none is given:
 //
 //   id1 id2      ids of the two grains, id1 < id2
 //   disc1 disc2  number of the disc within its grain, from 0
@@ -14,6 +14,12 @@
 //   nx ny        unit normal, from disc 2 to disc 1
 //   overlap      (m)
 //   sliding      1 if the tangential spring is at the Coulomb limit fn_spring tan(phi), else 0
+//
+// and, only if they are named, the numbers that contacts remember of the law in use:
+//
+//   es           tangential spring (N)
+//   en           normal spring of law incremental (N)
+//   rolling      torque of the rolling resistance's spring on grain 1 (N m)
 //
 // For example:  compute c all cdem/contacts x y fn sliding
 //               dump d all local 1000 contacts.dump c_c[1] c_c[2] c_c[3] c_c[4]
@@ -25,6 +31,8 @@
 
 #include "compute.h"
 
+#include <functional>
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -38,16 +46,18 @@ public:
   double memory_usage() override;
 
 private:
-  using Contact = PairCDEM::Contact;
+  using Contact = ContactReport::Contact;
   struct Field {
-    const char *name;
-    double (*value)(const Contact &);
+    std::string name;
+    std::function<double(const Contact &)> value;
   };
-  static const std::vector<Field> all_fields;
+  static const std::vector<Field> all_fields; // of any law
 
-  const Field &field(const char *name) const;
+  void check(const std::string &name) const;
+  Field field(const std::string &name) const;
   std::vector<tagint> members() const;
 
+  std::vector<std::string> names; // of the columns
   std::vector<Field> fields;
   const PairCDEM *pair = nullptr;
   Shearbox::LocalArray contacts;

@@ -29,7 +29,7 @@ void ComputeCDEMDiscs::init() {
 void ComputeCDEMDiscs::compute_local() {
   invoked_local = update->ntimestep;
   discs.clear();
-  for (const auto &[i, number, x, y, radius] : pair->discs()) {
+  for (const auto &[i, number, x, y, radius] : pair->report.discs()) {
     if (!(atom->mask[i] & groupbit))
       continue;
     discs.add(static_cast<double>(atom->tag[i]));

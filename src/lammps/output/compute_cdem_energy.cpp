@@ -63,8 +63,8 @@ void ComputeCDEMEnergy::compute_vector() {
     mine[TRANSLATION] += translation;
     mine[ROTATION] += rotation;
   }
-  const auto [normal, tangential] = pair->spring_energy();
-  mine[SPRINGS] = normal + tangential;
+  const auto [normal, tangential, added] = pair->report.energy();
+  mine[SPRINGS] = normal + tangential + added;
   MPI_Allreduce(mine.data(), energy.data(), NPARTS, MPI_DOUBLE, MPI_SUM, world);
   if (audit)
     keep_books();
@@ -78,8 +78,8 @@ ComputeCDEMEnergy::Kinetic ComputeCDEMEnergy::kinetic(int i) const {
 
 ComputeCDEMEnergy::State ComputeCDEMEnergy::state() const {
   const cdem::StepRule step = grains->step_rule();
-  const auto [normal, tangential] = pair->spring_energy();
-  double mine[4] = {0, normal + tangential, tangential, 0}, all[4];
+  const auto [normal, tangential, added] = pair->report.energy();
+  double mine[4] = {0, normal + tangential + added, tangential, 0}, all[4];
   for (int i = 0; i < atom->nlocal; i++) {
     if (!grains->is_free(i))
       continue;
@@ -96,10 +96,10 @@ ComputeCDEMEnergy::State ComputeCDEMEnergy::state() const {
 void ComputeCDEMEnergy::open_books() {
   if (audit->open)
     return;
-  if (!pair->keeps_books())
+  if (!pair->contacts.keeps_books())
     error->all(FLERR, "Compute cdem/energy {}: the first run with an audit must not be 'pre no'", id);
   const State now = state();
-  pair->book_losses();
+  pair->contacts.book_losses();
   audit->books = {};
   audit->opening = {now.kinetic + now.springs, now.gravity};
   audit->open = true;
@@ -107,7 +107,7 @@ void ComputeCDEMEnergy::open_books() {
 
 void ComputeCDEMEnergy::keep_books() {
   open_books();
-  pair->book_losses();
+  pair->contacts.book_losses();
   const State now = state();
   const auto [friction, dashpots, drag, walls] = audit->all();
   energy[TANGENTIAL] = now.tangential;

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the springs, the dashpots and the friction of a contact are made of.
+#pragma once
+
+#include <cmath>
+
+namespace cdem {
+
+// Constants of one pair of materials.
+struct Material {
+  double kn = 0, ks = 0; // N/m
+  double dn = 0, ds = 0; // dashpots over 2 sqrt(m): h sqrt(k)
+  double mu = 0;         // tan(phi)
+};
+
+inline Material material(double kn, double ks, double hn, double hs, double mu) {
+  return {kn, ks, hn * std::sqrt(kn), hs * std::sqrt(ks), mu};
+}
+
+} // namespace cdem

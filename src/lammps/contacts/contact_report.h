@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the contacts of the last step are, for output: looks at the list of pairs and changes nothing.
+#pragma once
+
+#include "contacts/disc_pair_list.h"
+
+#include "lmptype.h"
+#include "pointers.h"
+
+#include <array>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class ContactReport : protected Pointers {
+public:
+  ContactReport(LAMMPS *lmp, const DiscPairList &of) : Pointers(lmp), list(of) {}
+
+  // A contact of the last step. t = n turned by +90 degrees; the force on disc a is fn n + ft t. One that opened within
+  // the step is still there, with what is left of its forces and an overlap below zero.
+  struct Contact {
+    tagint tag_a, tag_b;
+    int disc_a, disc_b;
+    double x, y;   // contact point
+    double fn, ft; // with dashpots; fn > 0 repels
+    double nx, ny; // from b to a
+    double overlap;
+    bool sliding;
+    bool mine;                                             // of the ranks that see this contact, this one counts it
+    std::array<double, 1 + cdem::MOST_NUMBERS> remembered; // see LawTable::remembered
+  };
+  std::vector<Contact> contacts() const;
+
+  // A disc of one of this rank's own grains, at the end of the last step.
+  struct DiscPlace {
+    int atom, disc;
+    double x, y, radius;
+  };
+  std::vector<DiscPlace> discs() const;
+
+  // Of the contacts that this rank counts (J).
+  cdem::LawTable::Energy energy() const;
+
+  // Of the contacts of own grain i with the grain that is j, or its image (J, N); `pull` is fn over the distance.
+  struct OfPair {
+    double energy, pull, fn, ft, es;
+  };
+  OfPair of_pair(int i, int j) const;
+
+  // Calls visit(grain, grain, energy, force on the first) for all contacts that act.
+  template <class Visit> void for_each_acting(bool with_energy, Visit visit) const {
+    list.pairs.for_each([&](int k, const cdem::Material &m) {
+      if (!list.acts(k))
+        return;
+      const auto e = with_energy ? list.energy(k, m) : cdem::LawTable::Energy{0, 0, 0};
+      visit(list.rows.grain(list.pairs.a(k)), list.rows.grain(list.pairs.b(k)), e.normal + e.tangential + e.added,
+            list.pairs.force[k]);
+    });
+  }
+
+private:
+  Contact contact(int k) const;
+
+  const DiscPairList &list;
+};
+
+} // namespace LAMMPS_NS

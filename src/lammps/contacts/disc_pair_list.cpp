@@ -1,0 +1,434 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contacts/disc_pair_list.h"
+
+#include "core/list_skin.h"
+#include "core/step_events.h"
+#include "grains/fix_cdem_audit.h"
+#include "grains/fix_cdem_grains.h"
+#include "host/compat.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "timer.h"
+#include "update.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+void DiscPairList::init(const cdem::LawTable &of_run, const ByTypes &by_types, const std::string &widest,
+                        FixCDEMHistory *memory) {
+  law = of_run;
+  coefficients = &by_types;
+  instructions = widest;
+  history = memory;
+  history->list = this;
+  history->remember(law.remembered());
+  audit = FixCDEMAudit::find(lmp);
+  grains = FixCDEMGrains::find(lmp);
+  rows.init(grains, cdem::kernels(law.rules, instructions));
+  speed = -1;
+  is_of_run = false;
+}
+
+void DiscPairList::exchange_ghosts() {
+  if (atom->nghost || comm->nprocs > 1)
+    Shearbox::forward_comm(lmp, carrier);
+  rows.expand_ghosts();
+}
+
+void DiscPairList::rebuild(const NeighList *of_grains) {
+  neighbours = of_grains;
+  neighbours_built_at.resize(atom->nlocal);
+  for (int i = 0; i < atom->nlocal; i++)
+    neighbours_built_at[i] = {atom->x[i][0], atom->x[i][1]};
+  build();
+}
+
+void DiscPairList::pair_forces(int block) {
+  has_history = true;
+  const double dt = update->setupflag ? 0 : update->dt;
+  cdem::PairColumns columns = pairs.columns(slots.data());
+  if (fetches_ahead)
+    columns.ahead = {rows.discs() + slots.read_end(block), rows.body(block_starts[block])};
+  for (int k = pairs.first_segment[block]; k < pairs.first_segment[block + 1]; k++) {
+    const auto &segment = pairs.segments[k];
+    kernels.forces(rows.discs(), columns, segment.material, segment.begin, segment.end, dt);
+  }
+}
+
+void DiscPairList::forces() {
+  for (int block = 0; block < slots.blocks(); block++) {
+    const int begin = block_starts[block], end = block_starts[block + 1];
+    pair_forces(block);
+    keep_forces(block);
+    rows.sum_block(slots.block(block), begin, end);
+    for (int i = begin; i < end; i++) {
+      const auto [fx, fy, torque] = rows.force_on(i);
+      atom->f[i][0] += fx;
+      atom->f[i][1] += fy;
+      atom->torque[i][2] += torque;
+    }
+  }
+}
+
+// For all that looks at single contacts.
+void DiscPairList::keep_forces(int block) {
+  for (int s = pairs.first_segment[block]; s < pairs.first_segment[block + 1]; s++)
+    for (int k = pairs.segments[s].begin; k < pairs.segments[s].end; k++)
+      pairs.force[k] = slots.of_pair(pairs, k);
+}
+
+// A pair belongs to the block of its lower row. So once the pairs of a block are done, so are all pairs of its grains,
+// and these can be moved while their forces are still in the cache: later blocks don't look at them.
+void DiscPairList::forces_and_advance(const cdem::StepRule &step, const std::vector<int> &felt, cdem::Fastest &fastest,
+                                      cdem::Travel *travel) {
+  auto wall = felt.begin();
+  for (int block = 0; block < slots.blocks(); block++) {
+    const int begin = block_starts[block], end = block_starts[block + 1];
+    pair_forces(block);
+    for (; wall != felt.end() && *wall < end; ++wall) {
+      rows.sum_grain(slots, *wall);
+      const auto [fx, fy, torque] = rows.force_on(*wall);
+      atom->f[*wall][0] = fx;
+      atom->f[*wall][1] = fy;
+    }
+    rows.advance(slots.block(block), begin, end, step, fastest, travel);
+  }
+}
+
+double DiscPairList::Place::moved(const cdem::Disc<double> &now) const {
+  const double dx = now.x - x, dy = now.y - y;
+  return std::sqrt(dx * dx + dy * dy);
+}
+
+double DiscPairList::room() const {
+  double most = 0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double moved = neighbours_built_at[i].moved(rows.of_grain(i));
+    if (!std::isfinite(moved))
+      return -INFINITY; // before the list is rebuilt, the guard says which atom it is
+    most = std::max(most, moved);
+  }
+  return 0.5 * neighbor->skin - most;
+}
+
+// How far any point of a grain is from where it was when the list of disc pairs was built.
+double DiscPairList::most_moved() const {
+  double most = 0;
+  for (std::size_t i = 0; i < discs_built_at.size(); i++) {
+    double moved = discs_built_at[i].moved(rows.of_grain(i));
+    if (rows.has_clumps())
+      moved += rows.reach(i) * std::fabs(rows.angle(i) - angle_built_at[i]);
+    most = std::max(most, moved);
+  }
+  return most;
+}
+
+// Only when a bound of the motion is used up is the motion itself looked at.
+void DiscPairList::refresh(double moved) {
+  constexpr double LEAST = 0.05; // of the skin: with less left it is not worth keeping
+  room_left -= moved;
+  if (room_left > 0)
+    return;
+  room_left = 0.5 * skin - most_moved();
+  if (room_left > LEAST * skin)
+    return;
+  timer->stamp(Timer::PAIR);
+  speed = (0.5 * skin - room_left) / double(std::max<bigint>(update->ntimestep - built_in_step, 1));
+  finish_step_in_books();
+  copy_history_to_grains();
+  build();
+  timer->stamp(Timer::NEIGH);
+}
+
+double DiscPairList::largest_reach() const {
+  double reach = 0;
+  if (rows.has_clumps())
+    for (int i = 0; i < atom->nlocal; i++)
+      reach = std::max(reach, rows.reach(i));
+  return reach;
+}
+
+void DiscPairList::build() {
+  booking = audit != nullptr;
+  is_of_run = true;
+  law.rules.books = booking;
+  kernels = cdem::kernels(law.rules, instructions);
+  choose_skin();
+  listed.assign(atom->tag, atom->tag + atom->nlocal + atom->nghost);
+  divide_into_blocks();
+  find_pairs();
+  set_constants();
+  pairs.for_each([this](int k, const cdem::Material &) { recall_history(k); });
+  std::vector<int> row_starts;
+  for (int grain : block_starts)
+    row_starts.push_back(rows.rows_of(grain));
+  slots.build(
+      // The order of all sums: by the id of the grain, then by the disc.
+      pairs, row_starts, [this](int p) { return std::pair(atom->tag[rows.grain(p)], rows.disc(p)); },
+      [this](int p) { return !grains->is_free(rows.grain(p)); });
+  history->expect_at_most(most_pairs());
+  constexpr double SECOND_CACHE = 2e6; // of a core, bytes
+  fetches_ahead = pairs.bytes() + rows.bytes() + slots.bytes() > SECOND_CACHE;
+
+  discs_built_at.resize(atom->nlocal + atom->nghost);
+  angle_built_at.resize(rows.has_clumps() ? discs_built_at.size() : 0);
+  for (std::size_t i = 0; i < discs_built_at.size(); i++)
+    discs_built_at[i] = {rows.of_grain(i).x, rows.of_grain(i).y};
+  for (std::size_t i = 0; i < angle_built_at.size(); i++)
+    angle_built_at[i] = rows.angle(i);
+  room_left = 0.5 * skin;
+  built_in_step = update->ntimestep;
+}
+
+// Of any own grain.
+int DiscPairList::most_pairs() const {
+  int most = 0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    int n = 0;
+    for (int p = rows.rows_of(i); p < rows.rows_of(i + 1); p++)
+      n += slots.pairs_of(p);
+    most = std::max(most, n);
+  }
+  return most;
+}
+
+// The skin of the list of disc pairs that costs least, see core/list_skin.h. A pair that opens in this step must stay
+// for another one: its forces may have a share left. The bits of the forces don't depend on the skin.
+void DiscPairList::choose_skin() {
+  constexpr double LEAST = 0.01, SAFETY = 8;
+  constexpr int LOOKED_AT = 256; // grains, whose neighbours tell enough
+  const double largest = neighbor->skin;
+  const double step = update->dt * rows.fastest(atom->nlocal + atom->nghost).speed(largest_reach());
+  const int every = std::max(1, neighbours->inum / LOOKED_AT);
+  double touching = 0, near = 0;
+  skin = largest;
+  for (int ii = 0; ii < neighbours->inum; ii += every)
+    for_each_candidate(neighbours->ilist[ii], [&](int p, int q, double square) {
+      (std::sqrt(square) < rows.radius(p) + rows.radius(q) ? touching : near) += every;
+    });
+  const double cheapest =
+      cdem::cheapest_skin(rows.rows_of(atom->nlocal), touching, near / largest, speed < 0 ? step : speed);
+  skin = std::min(std::max({cheapest, LEAST * largest, SAFETY * step}), largest);
+}
+
+// Small enough that a block's forces stay in the cache.
+void DiscPairList::divide_into_blocks() {
+  constexpr int ROWS = 512;
+  block_starts.assign(1, 0);
+  for (int i = 1; i < atom->nlocal; i++)
+    if (rows.rows_of(i + 1) - rows.rows_of(block_starts.back()) > ROWS)
+      block_starts.push_back(i);
+  block_starts.push_back(atom->nlocal);
+}
+
+// Calls visit(row, row, square of their distance) for all pairs of discs that may touch before the next rebuild, of
+// grain i and those that LAMMPS lists as its neighbours.
+template <class Visit> void DiscPairList::for_each_candidate(int i, Visit visit) const {
+  for (int jj = 0; jj < neighbours->numneigh[i]; jj++) {
+    const int j = neighbours->firstneigh[i][jj] & NEIGHMASK;
+    if (!grains->is_free(i) && !grains->is_free(j))
+      continue;
+    for (int p = rows.rows_of(i); p < rows.rows_of(i + 1); p++)
+      for (int q = rows.rows_of(j); q < rows.rows_of(j + 1); q++) {
+        const double dx = rows[p].x - rows[q].x, dy = rows[p].y - rows[q].y, square = dx * dx + dy * dy;
+        const double reach = rows.radius(p) + rows.radius(q) + skin;
+        if (square < reach * reach)
+          visit(p, q, square);
+      }
+  }
+}
+
+// Segments are by block, then by material.
+void DiscPairList::find_pairs() {
+  const int types = atom->ntypes + 1;
+  std::vector<cdem::Material> by_types;
+  for (const auto &row : *coefficients)
+    for (const cdem::Coefficients &of_types : row)
+      by_types.push_back(of_types.material);
+  int lower = -1, block = 0; // the last one's
+  auto segment_of = [&](int i, int j) {
+    if (std::min(i, j) != lower)
+      block = cdem::block_of(block_starts, lower = std::min(i, j));
+    const auto [low, high] = std::minmax(atom->type[i], atom->type[j]);
+    return (block * types + low) * types + high;
+  };
+
+  std::vector<int> sizes(by_types.size() * (block_starts.size() - 1), 0), next(sizes.size(), 0);
+  found.clear();
+  for (int ii = 0; ii < neighbours->inum; ii++)
+    for_each_candidate(neighbours->ilist[ii], [&](int p, int q, double square) {
+      const int i = rows.grain(p), j = rows.grain(q), segment = segment_of(i, j);
+      if (square == 0)
+        refuse_same_centre(p, q);
+      const bool p_first = atom->tag[i] < atom->tag[j];
+      found.push_back({p_first ? p : q, p_first ? q : p, segment});
+      sizes[segment]++;
+    });
+  pairs.lay_out(by_types, sizes, {law.memories(), law.constants(), booking ? 2 + law.books() : 0});
+  auto segment = pairs.segments.begin();
+  for (std::size_t m = 0; m < sizes.size(); m++)
+    if (sizes[m])
+      next[m] = (segment++)->begin;
+  for (const auto &[p, q, segment] : found)
+    pairs.set_discs(next[segment]++, p, q);
+}
+
+void DiscPairList::refuse_same_centre(int p, int q) const {
+  error->one(FLERR,
+             "Pair style cdem: discs of atoms {} and {} have the same centre ({}, {}): no direction to push them apart",
+             atom->tag[rows.grain(p)], atom->tag[rows.grain(q)], rows[p].x, rows[p].y);
+}
+
+void DiscPairList::set_constants() {
+  const cdem::StepRule step = grains->step_rule();
+  for (const auto &[material, begin, end] : pairs.segments) {
+    const double of_steps = cdem::mass_of_steps(material, step.dt, 2 * step.forward / step.dt);
+    for (int k = begin; k < end; k++) {
+      const double rp = rows.radius(pairs.a(k)), rq = rows.radius(pairs.b(k));
+      pairs.set_constants(k, {rp + rq, 0.5 * (rp - rq), cdem::dashpot_scale(mass(k), of_steps)});
+      if (law.constants() > 0)
+        set_law_constants(k);
+    }
+  }
+}
+
+void DiscPairList::set_law_constants(int k) {
+  const int p = pairs.a(k), q = pairs.b(k);
+  std::array<double, cdem::MOST_NUMBERS> constants{};
+  law.set_constants((*coefficients)[atom->type[rows.grain(p)]][atom->type[rows.grain(q)]], {grain_of(p), grain_of(q)},
+                    constants.data());
+  pairs.set_law_constants(k, constants.data());
+}
+
+cdem::TwoGrains::Grain DiscPairList::grain_of(int row) const {
+  const int i = rows.grain(row);
+  if (!grains->is_free(i))
+    return {INFINITY, INFINITY, rows.radius(row)};
+  const double m = atom->rmass[i], r = atom->radius[i];
+  return {m, grains->inertia(atom->type[i]) * m * r * r, rows.radius(row)};
+}
+
+void DiscPairList::renew_constants() {
+  const bool running = update->whichflag != 0; // else atoms may have come and gone since the list was built
+  if (running && is_of_run)
+    set_constants();
+}
+
+double DiscPairList::mass(int k) const {
+  const int i = rows.grain(pairs.a(k)), j = rows.grain(pairs.b(k));
+  const double mi = atom->rmass[i], mj = atom->rmass[j];
+  return !grains->is_free(j) ? mi : !grains->is_free(i) ? mj : mi * mj / (mi + mj);
+}
+
+void DiscPairList::recall_history(int k) {
+  const int i = rows.grain(pairs.a(k)), j = rows.grain(pairs.b(k)), p = rows.disc(pairs.a(k)),
+            q = rows.disc(pairs.b(k));
+  const bool i_is_own = i < atom->nlocal;
+  if (const double *const known = i_is_own ? history->find(i, {atom->tag[j], short(p), short(q)})
+                                           : history->find(j, {atom->tag[i], short(q), short(p)}))
+    pairs.set_remembered(k, known);
+}
+
+cdem::LawTable::Energy DiscPairList::energy(int k, const cdem::Material &m) const {
+  return law.energy(m, pairs.law_constants(k).data(), pairs.remembered(k).data(), overlap(k));
+}
+
+const cdem::Material &DiscPairList::material(int k) const {
+  return (*coefficients)[atom->type[rows.grain(pairs.a(k))]][atom->type[rows.grain(pairs.b(k))]].material;
+}
+
+cdem::Resistance DiscPairList::resistance(int k) const {
+  const cdem::Material &m = material(k);
+  const double scale = 2 * std::sqrt(mass(k));
+  cdem::Resistance r = law.added_resistance(pairs.law_constants(k).data());
+  r.normal.stiffness += m.kn, r.normal.dashpot += m.dn * scale;
+  r.tangent.stiffness += m.ks, r.tangent.dashpot += m.ds * scale;
+  return r;
+}
+
+double DiscPairList::overlap(int k) const {
+  const auto &a = rows[pairs.a(k)], &b = rows[pairs.b(k)];
+  return pairs.constants(k).radius_sum - std::hypot(a.x - b.x, a.y - b.y);
+}
+
+// A pair across a border is on two ranks (or twice on one, if periodic): the owner of disc a counts it.
+bool DiscPairList::counts(int k) const { return rows.grain(pairs.a(k)) < block_starts.back(); }
+
+// Also in the step after it opened, in which its forces may have a share left.
+bool DiscPairList::acts(int k) const {
+  const auto [fx, fy] = pairs.force[k];
+  return overlap(k) > 0 || fx != 0 || fy != 0;
+}
+
+void DiscPairList::close_list() {
+  if (audit && has_history) {
+    rows.fill(0, atom->nlocal, 0);
+    exchange_ghosts();
+    finish_step_in_books();
+  }
+  move_history_to_grains();
+}
+
+// The rows have moved, and a new list won't know the last forces of the dashpots. Half of them acted in this step; the
+// other half is that of forces which are still to be computed: for now, of a contact without any.
+void DiscPairList::finish_step_in_books() {
+  if (!pairs.has_books())
+    return;
+  pairs.for_each([this](int k, const cdem::Material &) {
+    const auto relative = cdem::relative(rows[pairs.a(k)], rows[pairs.b(k)]);
+    const auto contact = cdem::contact_of(relative, cdem::distance_of(relative), pairs.constants(k), update->dt);
+    auto last = pairs.last_dashpots_of(k);
+    pairs.dashpots[k] += law.finish_books(contact, update->dt, last.data());
+    pairs.set_last_dashpots(k, last.data());
+  });
+}
+
+void DiscPairList::book_losses() {
+  if (!audit || !pairs.has_books())
+    return;
+  pairs.for_each([this](int k, const cdem::Material &) {
+    if (counts(k)) {
+      audit->books.friction += pairs.friction[k];
+      audit->books.dashpots += pairs.dashpots[k];
+    }
+    pairs.friction[k] = pairs.dashpots[k] = 0;
+  });
+}
+
+// Grains may have come and gone since the list was built: only what was noted then is of use here.
+void DiscPairList::copy_history_to_grains() {
+  if (!has_history)
+    return;
+  book_losses();
+  const int own_grains = block_starts.back();
+  const int numbers = 1 + law.memories();
+  auto for_each_memory = [&](auto visit) { // visit(grain, contact as it remembers it, its numbers)
+    pairs.for_each([&](int k, const cdem::Material &) {
+      const auto all = pairs.remembered(k);
+      if (std::all_of(all.begin(), all.begin() + numbers, [](double x) { return x == 0; }))
+        return;
+      const int a = pairs.a(k), b = pairs.b(k);
+      for (const auto &[own, other] : {std::pair{a, b}, std::pair{b, a}})
+        if (rows.grain(own) < own_grains)
+          visit(rows.grain(own),
+                FixCDEMHistory::Contact{listed[rows.grain(other)], short(rows.disc(own)), short(rows.disc(other))},
+                all.data());
+    });
+  };
+  std::vector<int> count(own_grains, 0);
+  for_each_memory([&](int i, const auto &, const double *) { count[i]++; });
+  history->make_room(count, listed);
+  for_each_memory([this](int i, const auto &contact, const double *all) { history->add(i, contact, all); });
+}
+
+void DiscPairList::move_history_to_grains() {
+  copy_history_to_grains();
+  has_history = false;
+}

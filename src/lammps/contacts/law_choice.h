@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What pair_style and pair_coeff say about the contact law, and restart files keep.
+#pragma once
+
+#include "contacts/disc_pair_list.h"
+#include "core/law_table.h"
+
+#include "pointers.h"
+
+#include <cstdio>
+#include <string>
+
+namespace LAMMPS_NS {
+
+class LawChoice : protected Pointers {
+public:
+  explicit LawChoice(LAMMPS *);
+
+  void read_style(int narg, char **arg);
+  // The words after the two types of pair_coeff.
+  cdem::Coefficients read_coefficients(int narg, char **arg);
+  void forget_coefficients();
+
+  cdem::LawTable table() const { return cdem::LawTable(rules); }
+
+  // Text with the names of all parameters in it, so that a file of another version is never read as something else.
+  // `is_set`: whether pair_coeff gave the coefficients of two types.
+  void write(FILE *, int **is_set) const;
+  void read(FILE *, int **is_set); // all ranks together; the file is the first one's
+
+  std::string instructions;
+  DiscPairList::ByTypes coefficients; // by the types of two atoms
+
+private:
+  void read_addition(const std::string &name, int narg, char **arg, int &iarg, std::vector<double> &given);
+  double read_parameter(const cdem::Parameter &, const char *word) const;
+  std::string text(int **is_set) const;
+  void take_text(const std::string &, int **is_set);
+  [[noreturn]] void refuse_file(const std::string &why) const;
+
+  cdem::ContactRules rules;
+};
+
+} // namespace LAMMPS_NS
