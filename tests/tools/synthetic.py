@@ -50,13 +50,13 @@ def curves(sigma: float, travel: float, rows: int = 800, seed: int = 1) -> dict[
 
 
 def write_shear(path: Path, columns: dict[str, np.ndarray], rows: slice = slice(None), mode: str = "w") -> None:
-    """shear.dat as `fix ave/time` writes it."""
+    """shear.dat as shear.in writes it."""
     table = np.column_stack(list(columns.values()))[rows]
     with path.open(mode, encoding="utf-8") as stream:
         if mode == "w":
-            stream.write("# Time-averaged data for fix curve\n# " + " ".join(columns) + "\n")
+            stream.write("# " + " ".join(columns) + "\n")
         for row in table:
-            stream.write(f"{int(row[0])} " + " ".join(f"{value:.10g}" for value in row[1:]) + "\n")
+            stream.write(" ".join(f"{value:.10g}" for value in row) + "\n")
 
 
 def write_row(path: Path, **values: float) -> None:

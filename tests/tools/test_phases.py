@@ -9,6 +9,7 @@ from shearbox_tools.models import all_models, find_model
 from shearbox_tools.phases import disk_need, packing, shearing
 from shearbox_tools.request import Request
 
+HEADER = "# step displacement_mm tau_kPa\n"
 GOODBYE = "...\nTotal wall time: 0:00:01\n"
 
 
@@ -47,7 +48,16 @@ def test_variables_of_the_decks(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "text, reached", [("# step s\n5000 0.25 1\n", 0.25), ("5000 0.25 1\n10000 0.5", 0.25), ("# step s\n", 0), ("", 0)]
+    "text, reached",
+    [
+        (HEADER + "5000 0.25 1\n", 0.25),
+        (HEADER + "5000 0.25 1\n10000 0.5", 0.25),
+        (HEADER + "5000 0.25 1\n" + HEADER, 0.25),
+        ("# step tau_kPa displacement_mm\n5000 60 0.25\n", 0.25),
+        ("# step tau_kPa\n5000 60\n", 0),
+        (HEADER, 0),
+        ("", 0),
+    ],
 )
 def test_displacement_of_the_last_whole_line(tmp_path: Path, text, reached):
     shear = shearing(tmp_path, request(), 100)[1]

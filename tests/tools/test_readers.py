@@ -9,7 +9,7 @@ import synthetic
 
 from shearbox_tools.dumps import CONTACTS, DISCS, GRAINS, Dump
 from shearbox_tools.errors import ShearboxError
-from shearbox_tools.readers import read_row, read_shear
+from shearbox_tools.readers import last_value, read_row, read_shear
 from shearbox_tools.repair import repair
 
 
@@ -70,11 +70,51 @@ def test_a_damaged_row_is_named(shear, text, message):
     assert f"{shear}, {message}" in str(error.value)
 
 
-@pytest.mark.parametrize("text", ["", "# only a header\n"])
-def test_no_rows(shear, text):
-    shear.write_text(text, encoding="utf-8")
+@pytest.mark.parametrize("lines", [0, 1])
+def test_no_rows(shear, lines):
+    shear.write_text("".join(shear.read_text(encoding="utf-8").splitlines(keepends=True)[:lines]), encoding="utf-8")
     with pytest.raises(ShearboxError, match="no rows of data"):
         read_shear(shear)
+
+
+def test_columns_in_another_order_and_one_more(shear):
+    expected = synthetic.curves(100, 8, rows=20)
+    given = {"pressure_kPa": np.arange(20.0)} | dict(reversed(expected.items()))
+    synthetic.write_shear(shear, given)
+    table = read_shear(shear)
+    for name, column in given.items():
+        assert table[name] == pytest.approx(column, rel=1e-8), name
+    assert last_value(shear, "displacement_mm") == pytest.approx(expected["displacement_mm"][-1])
+
+
+def test_columns_that_are_not_there_are_named(shear):
+    columns = synthetic.curves(100, 8, rows=20)
+    del columns["tau_kPa"], columns["work_J"]
+    synthetic.write_shear(shear, columns)
+    with pytest.raises(ShearboxError, match="shear.dat: there is no column tau_kPa, work_J; the columns are step disp"):
+        read_shear(shear)
+
+
+@pytest.mark.parametrize(
+    "line, text, message",
+    [
+        (1, "5000 1 2 3 4 5 6 7 8 9 10", "line 1: a header '# step ...' is expected, not '5000 1"),
+        (1, "# " + " ".join(synthetic.curves(100, 8)) + " step", "there are several columns step"),
+        (1, "# " + " ".join(synthetic.curves(100, 8)) + " more", "line 2: 12 values are expected, there are 11"),
+        (9, "# " + " ".join(reversed(synthetic.curves(100, 8))), "line 9: the header is no longer 'step disp"),
+    ],
+)
+def test_a_header_that_is_not_that_of_the_rows_is_named(shear, line, text, message):
+    edit(shear, line, text)
+    with pytest.raises(ShearboxError) as error:
+        read_shear(shear)
+    assert str(shear) in str(error.value) and message in str(error.value)
+
+
+def test_a_continued_table_has_its_header_twice(shear):
+    again = shear.read_text(encoding="utf-8")
+    shear.write_text(again + again, encoding="utf-8")
+    assert len(read_shear(shear)["step"]) == 20
 
 
 def test_no_file(tmp_path):

@@ -151,7 +151,7 @@ def test_a_curve_that_still_rises_is_said(folder):
 
 
 DAMAGED = [
-    ("200/shear.dat", "1 2 3\n", "shear.dat, line 1: 11 values are expected"),
+    ("200/shear.dat", "1 2 3\n", "shear.dat, line 1: a header"),
     ("200/discs.dump", "", "discs.dump: the file is empty"),
     ("200/contacts.dump", "ITEM: ATOMS\n", "contacts.dump, line 1: 'ITEM: TIMESTEP' is expected"),
     ("200/grains.dump", "", "grains.dump: the file is empty"),

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from .files import PACKED, stress_folder
 from .models import INPUT
+from .readers import last_value
 from .request import Request
 
 BYTES_PER_FRAME_AND_DISC = 300  # of the three dumps together
@@ -56,15 +57,8 @@ class Phase:
             return False
 
     def displacement(self) -> float:
-        """Shear displacement (mm) reached so far, from the last whole line of shear.dat; 0 when there is none."""
-        try:
-            with (self.folder / "shear.dat").open("rb") as stream:
-                size = stream.seek(0, os.SEEK_END)
-                stream.seek(max(0, size - 1000))
-                lines = stream.read().split(b"\n")[:-1]
-            return float(lines[-1].split()[1])
-        except (OSError, IndexError, ValueError):
-            return 0.0
+        """Shear displacement (mm) reached so far, from the last whole row of shear.dat; 0 when there is none."""
+        return last_value(self.folder / "shear.dat", "displacement_mm") or 0.0
 
 
 def packing(folder: Path, request: Request) -> Phase:

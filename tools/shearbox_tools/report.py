@@ -14,13 +14,11 @@ from .drawing import draw_specimen
 from .errors import ShearboxError
 from .files import write_json, write_text
 from .models import INPUT, read_comments
-from .readers import SHEAR_COLUMNS
 from .results import Results, Shear, read_results
 from .specimen import Film
 from .summary import phase_logs, summarise
 
 TEMPLATES = Path(__file__).parent / "templates"
-CURVE = (*SHEAR_COLUMNS[1:], "step")
 
 
 def report(folder: Path) -> Path:
@@ -58,7 +56,8 @@ def _pictures(results: Results) -> dict[str, str]:
 def _curve(shear: Shear) -> str:
     """The table of a shear phase with its fitted curves and dilatancy rate, as CSV."""
     s = shear.data["displacement_mm"]
-    columns = {name: shear.data[name] for name in CURVE}
+    columns = {name: column for name, column in shear.data.items() if name != "step"}
+    columns["step"] = shear.data["step"]
     columns["tau_fit_kPa"] = shear.tau.series(s)
     columns["lid_fit_mm"] = shear.lid.series(s)
     columns["dilatancy_rate"] = shear.lid.series.deriv()(s)
