@@ -111,24 +111,28 @@ def write_frames(folder: Path, steps: list[int], travel: float, width: float = 0
         texts["grains"].append(
             _frame(
                 step,
-                "ATOMS id type x y vx vy omega radius angle trm",
+                "ATOMS id type x y vx vy omegaz radius v_angle c_trm",
                 [f"{i + 1} {t} {x:.8g} {y:.8g} 0 0 0 {radius} {a:.6g} 0.7" for i, (t, (x, y), a) in enumerate(rows)],
             )
         )
         texts["discs"].append(
             _frame(
                 step,
-                "ENTRIES index " + " ".join(f"c_discs[{k}]" for k in range(1, 8)),
-                [f"{i + 1} {i + 1} 1 {x:.8g} {y:.8g} {radius} {a:.6g} {t}" for i, (t, (x, y), a) in enumerate(rows)],
+                "ENTRIES " + " ".join(f"c_discs[{k}]" for k in range(1, 8)),
+                [f"{i + 1} 0 {x:.8g} {y:.8g} {radius} {a:.6g} {t}" for i, (t, (x, y), a) in enumerate(rows)],
             )
         )
         texts["contacts"].append(
             _frame(
                 step,
-                "ENTRIES index " + " ".join(f"c_contacts[{k}]" for k in range(1, 15)),
+                "ENTRIES " + " ".join(f"c_contacts[{k}]" for k in range(1, 15)),
                 _contact_rows(centres, radius),
             )
         )
+    (folder / "discs.columns").write_text("id disc x y radius angle type\n", encoding="utf-8")
+    (folder / "contacts.columns").write_text(
+        "id1 id2 disc1 disc2 x y fn ft fx fy nx ny overlap sliding\n", encoding="utf-8"
+    )
     for name, frames in texts.items():
         (folder / f"{name}.dump").write_text("".join(frames), encoding="utf-8")
     assert len(start) == GRAINS
@@ -143,7 +147,7 @@ def _contact_rows(centres: np.ndarray, radius: float) -> list[str]:
         force = 100 * (1 + n[0] * n[1]) * (1 + 0.5 * np.sin(300 * centres[i, 0]))
         x, y = (centres[i] + centres[j]) / 2
         rows.append(
-            f"{len(rows) + 1} {i + 1} {j + 1} 1 1 {x:.8g} {y:.8g} {force:.6g} 0 {force * n[0]:.6g} "
+            f"{i + 1} {j + 1} 0 0 {x:.8g} {y:.8g} {force:.6g} 0 {force * n[0]:.6g} "
             f"{force * n[1]:.6g} {n[0]:.6g} {n[1]:.6g} 1e-6 0"
         )
     return rows

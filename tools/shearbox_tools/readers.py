@@ -55,11 +55,11 @@ def _header(line: str, before: list[str], path: Path, number: int) -> list[str]:
     return names
 
 
-def require(names: Sequence[str], needed: Sequence[str], path: Path) -> None:
+def require(names: Sequence[str], needed: Sequence[str], path: Path, hint: str = "") -> None:
     """Refuse a file that lacks columns, or names one twice."""
     missing = [name for name in needed if name not in names]
     if missing:
-        raise ShearboxError(f"{path}: there is no column {', '.join(missing)}; the columns are {' '.join(names)}")
+        raise ShearboxError(f"{path}: there is no column {', '.join(missing)}; the columns are {' '.join(names)}{hint}")
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
         raise ShearboxError(f"{path}: there are several columns {', '.join(twice)}")

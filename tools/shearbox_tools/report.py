@@ -37,7 +37,7 @@ def report(folder: Path) -> Path:
     page = folder / "report.html"
     write_text(page, _page(results, summary, pictures))
     if results.problems:
-        raise ShearboxError(f"{page} is written, but files are damaged:\n" + "\n".join(results.problems))
+        raise ShearboxError(f"{page} is written, but not all files can be read:\n" + "\n".join(results.problems))
     return page
 
 

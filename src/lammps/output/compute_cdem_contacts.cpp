@@ -29,24 +29,10 @@ const std::vector<ComputeCDEMContacts::Field> ComputeCDEMContacts::all_fields = 
 };
 
 ComputeCDEMContacts::ComputeCDEMContacts(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg) {
-  for (int k = 3; k < narg; k++)
-    fields.push_back(field(arg[k]));
-  if (fields.empty())
-    fields = all_fields;
+  fields = Shearbox::choose_fields(lmp, fmt::format("Compute cdem/contacts {}", id), narg - 3, arg + 3, all_fields);
   local_flag = 1;
   size_local_cols = static_cast<int>(fields.size());
   size_local_rows = 0;
-}
-
-const ComputeCDEMContacts::Field &ComputeCDEMContacts::field(const char *name) const {
-  std::string allowed;
-  for (const Field &f : all_fields) {
-    if (f.name == std::string(name))
-      return f;
-    allowed += std::string(" ") + f.name;
-  }
-  error->all(FLERR, "Compute cdem/contacts {}: unknown field {}; allowed:{}", id, name, allowed);
-  return all_fields.front(); // not reached
 }
 
 void ComputeCDEMContacts::init() {

@@ -22,6 +22,7 @@
 
 #include "contacts/pair_cdem.h"
 #include "host/local_array.h"
+#include "output/named_fields.h"
 
 #include "compute.h"
 
@@ -39,13 +40,9 @@ public:
 
 private:
   using Contact = PairCDEM::Contact;
-  struct Field {
-    const char *name;
-    double (*value)(const Contact &);
-  };
+  using Field = Shearbox::Field<Contact>;
   static const std::vector<Field> all_fields;
 
-  const Field &field(const char *name) const;
   std::vector<tagint> members() const;
 
   std::vector<Field> fields;
