@@ -76,8 +76,9 @@ def packing(width: float, height: float, radius: float) -> np.ndarray:
     return np.array(centres)
 
 
-def walls(width: float, half_height: float, diameter: float, shift: float) -> np.ndarray:
-    """(n, 2) centres of floor, lid, sides and flanges; the lower half is moved by `shift`."""
+def walls(width: float, half_height: float, diameter: float, shift: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(n, 2) centres of floor, lid, sides and flanges; which of them are of the lower half, moved by `shift`; which of
+    the lid."""
     columns = np.arange(half_height - diameter / 2, -diameter, -diameter)
     floor = np.arange(diameter / 2, width, diameter)
     out = np.arange(1, 6) * diameter
@@ -87,7 +88,8 @@ def walls(width: float, half_height: float, diameter: float, shift: float) -> np
     lower += [(-diameter / 2 - d, half_height - diameter / 2) for d in out]
     lower += [(width + diameter / 2 + d, half_height - diameter / 2) for d in out]
     upper = [(x, 2 * half_height - y) for x, y in lower]
-    return np.array([(x + shift, y) for x, y in lower] + upper)
+    centres = np.array([(x + shift, y) for x, y in lower] + upper)
+    return centres, np.arange(len(centres)) < len(lower), centres[:, 1] > 2 * half_height
 
 
 def write_frames(folder: Path, steps: list[int], travel: float, width: float = 0.1, half_height: float = 0.05) -> None:
@@ -103,7 +105,8 @@ def write_frames(folder: Path, steps: list[int], travel: float, width: float = 0
         angle = 0.01 * np.arange(len(start)) + 2 * shear / radius * np.sin(40 * start[:, 0]) * np.exp(
             -(((start[:, 1] - half_height) / 0.02) ** 2)
         )
-        border = walls(width, half_height, 2 * radius, shear)
+        border, is_lower, is_lid = walls(width, half_height, 2 * radius, shear)
+        flags = ["0 0 0"] * len(centres) + [f"1 {lower:d} {lid:d}" for lower, lid in zip(is_lower, is_lid)]
         where = np.vstack([centres, border])
         angles = np.concatenate([angle, np.zeros(len(border))])
         types = [1] * len(centres) + [2] * len(border)
@@ -111,8 +114,11 @@ def write_frames(folder: Path, steps: list[int], travel: float, width: float = 0
         texts["grains"].append(
             _frame(
                 step,
-                "ATOMS id type x y vx vy omegaz radius v_angle c_trm",
-                [f"{i + 1} {t} {x:.8g} {y:.8g} 0 0 0 {radius} {a:.6g} 0.7" for i, (t, (x, y), a) in enumerate(rows)],
+                "ATOMS id type x y vx vy omegaz radius v_angle c_trm v_wall v_lower v_lid",
+                [
+                    f"{i + 1} {t} {x:.8g} {y:.8g} 0 0 0 {radius} {a:.6g} 0.7 {flags[i]}"
+                    for i, (t, (x, y), a) in enumerate(rows)
+                ],
             )
         )
         texts["discs"].append(

@@ -194,7 +194,7 @@ def test_columns_without_names_are_refused(frames):
     (frames / "discs.columns").unlink()
     with pytest.raises(ShearboxError, match=r"no column id, disc.* c_discs\[1\] .*; discs.columns should name them all"):
         Dump(frames / "discs.dump", DISCS).frame(0)
-    edit(frames / "grains.dump", 9, "ITEM: ATOMS id type x y vx vy omegaz radius f_motion[4] c_trm")
+    edit(frames / "grains.dump", 9, "ITEM: ATOMS id type x y vx vy omegaz radius f_motion[4] c_trm v_wall v_lower v_lid")
     with pytest.raises(ShearboxError, match=r"grains.dump: there is no column angle; .* f_motion\[4\]"):
         Dump(frames / "grains.dump", GRAINS).frame(0)
 
@@ -203,7 +203,7 @@ def test_one_column_more(frames):
     path = frames / "grains.dump"
     before = Dump(path, GRAINS).frame(5000)
     lines = path.read_text(encoding="utf-8").splitlines()
-    lines = [line + (" v_heat" if "ATOMS id" in line else " 7" if len(line.split()) == 10 else "") for line in lines]
+    lines = [line + (" v_heat" if "ATOMS id" in line else " 7" if len(line.split()) == 13 else "") for line in lines]
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
     after = Dump(path, GRAINS).frame(5000)
     assert all(np.array_equal(before[column], after[column]) for column in GRAINS)
@@ -247,10 +247,10 @@ def test_the_last_of_repeated_frames_counts(frames):
         (1, "nonsense", "line 1: 'ITEM: TIMESTEP' is expected, not 'nonsense'"),
         (2, "many", "line 2: a whole number is expected, not 'many'"),
         (4, "7", "line 1: a frame of "),
-        (9, "ITEM: ATOMS id type x", "no column y, radius, angle; the columns are id type x"),
-        (12, "3 1 0.01 0.02 0 0 0 0.003 0", "line 12: 10 values are expected, there are 9"),
-        (12, "3 1 0.01 0.02 0 0 0 0.003 0 wide", "line 12: not a number"),
-        (12, "3 1 0.01 0.02 0 0 0 0.003 0 inf", "line 12: a value that is not finite"),
+        (9, "ITEM: ATOMS id type x", "no column y, radius, angle, wall, lower, lid; the columns are id type x"),
+        (12, "3 1 0.01 0.02 0 0 0 0.003 0 0 0 0", "line 12: 13 values are expected, there are 12"),
+        (12, "3 1 0.01 0.02 0 0 0 0.003 0 0 0 0 wide", "line 12: not a number"),
+        (12, "3 1 0.01 0.02 0 0 0 0.003 0 0 0 0 inf", "line 12: a value that is not finite"),
     ],
 )
 def test_a_damaged_dump_is_named(frames, line, text, message):

@@ -11,8 +11,8 @@ import numpy as np
 from .errors import ShearboxError
 from .readers import Columns, parse_numbers, require, short
 
-GRAINS = ("id", "type", "x", "y", "radius", "angle")  # columns that are needed
-DISCS = ("id", "disc", "x", "y", "radius", "type")
+GRAINS = ("id", "x", "y", "radius", "angle", "wall", "lower", "lid")  # columns that are needed
+DISCS = ("id", "disc", "x", "y", "radius")
 CONTACTS = ("id1", "id2", "x", "y", "fn")
 
 _FRAME = re.compile(rb"^ITEM: TIMESTEP\r?\n", re.MULTILINE)

@@ -9,8 +9,6 @@ import numpy as np
 from .dumps import CONTACTS, DISCS, GRAINS, Dump
 from .readers import Columns
 
-GRAIN, WALL = 1, 2  # atom types of the decks
-
 
 @dataclass(frozen=True)
 class Moment:
@@ -24,7 +22,7 @@ class Moment:
     @property
     def walls(self) -> np.ndarray:
         """(discs,) whether a disc is of a wall."""
-        return self.discs["type"] == WALL
+        return np.isin(self.discs["id"], self.grains["id"][self.grains["wall"] == 1])
 
     def rotation_since(self, first: "Moment") -> np.ndarray:
         """(discs,) angle (rad) that the grain of each disc has turned since another moment."""
@@ -75,16 +73,14 @@ class Film:
 def count_lost(folder: Path, total: int, width: float, half_height: float) -> int:
     """Grains that are gone, or have their centre outside the box by more than their radius, in the last frame.
 
-    width and half_height in m: the inside of the upper half is 0 < x < width, and that of the lower half is the same
-    moved by the shear displacement, which the floor tells.
+    width and half_height in m: the inside of the box is 0 < x < width, from y = 0 to the lid, and has moved below
+    half_height as far as the discs of the lower half have.
     """
     dump = Dump(folder / "grains.dump", GRAINS)
-    grains = dump.frame(dump.steps[-1])
-    x, y, radius, walls = grains["x"], grains["y"], grains["radius"], grains["type"] == WALL
-    shift = x[walls & (y < 0)].mean() - width / 2
-    lid = y[walls & (y > half_height + 3 * radius[walls].max()) & (x > 0) & (x < width)]
-    left = np.where(y > half_height, 0, shift)
-    inside = (x > left - radius) & (x < left + width + radius) & (y > -radius)
-    if len(lid):
-        inside &= y < lid.min() + radius
-    return total - int(np.sum(inside & ~walls))
+    before, grains = dump.frame(dump.steps[0]), dump.frame(dump.steps[-1])
+    x, y, radius = grains["x"], grains["y"], grains["radius"]
+    moved = x[grains["lower"] == 1].mean() - before["x"][before["lower"] == 1].mean()
+    top = np.min((y - radius)[grains["lid"] == 1])
+    left = np.where(y > half_height, 0, moved)
+    inside = (x > left - radius) & (x < left + width + radius) & (y > -radius) & (y < top + radius)
+    return total - int(np.sum(inside & (grains["wall"] == 0)))
