@@ -68,7 +68,8 @@ def _add_run(commands) -> None:
         "Run again with the same DIR, it goes on where it stopped; further stresses may be added later.",
         formatter_class=argparse.ArgumentDefaultsHelpFormatter,
     )
-    run.add_argument("model", metavar="MODEL", help="name of a model, as 'shearbox models' lists them")
+    run.add_argument("model", metavar="MODEL",
+                     help="name of a model, as 'shearbox models' lists them, or the path of a model file, NAME.in")  # fmt: skip
     run.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder of the results")
     run.add_argument("--stress", metavar="KPA", type=float, nargs="+", default=[100, 200, 300, 400],
                      help="normal stresses, kPa")  # fmt: skip

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from .files import PACKED, stress_folder
-from .models import INPUT
+from .errors import InputError
+from .models import INPUT, read_variables
 from .readers import last_value
 from .request import Request
 
-BYTES_PER_FRAME_AND_DISC = 300  # of the three dumps together
-FRAMES = 101
+BYTES_PER_FRAME_AND_DISC = 400  # of the three dumps together; the walls' share is in it
 
 
 @dataclass(frozen=True)
@@ -63,13 +63,13 @@ class Phase:
 
 def packing(folder: Path, request: Request) -> Phase:
     """The phase that all stresses share."""
-    return Phase("pack", folder / PACKED, _common(request), "packed.csv")
+    return Phase("pack", folder / PACKED, _common(request, folder / PACKED), "packed.csv")
 
 
 def shearing(folder: Path, request: Request, sigma: float) -> list[Phase]:
     """Consolidation and shear at one stress (kPa)."""
     place = stress_folder(folder, sigma)
-    common = {**_common(request), "sigma": f"{sigma:g}"}
+    common = {**_common(request, place), "sigma": f"{sigma:g}"}
     packed = os.path.relpath(folder / PACKED / "packed.restart", place)  # no blank, whatever the folder's name
     shear = {"speed": f"{request.speed:g}", "travel": f"{request.travel:g}"}
     return [
@@ -80,18 +80,27 @@ def shearing(folder: Path, request: Request, sigma: float) -> list[Phase]:
 
 def disk_need(request: Request, folder: Path) -> int:
     """Bytes that the phases not yet done will write, roughly."""
-    model = request.model
-    walls = 6 * model.width / model.dmin + 4 * model.half_height / model.dmin
-    discs = model.ngrains * (3 if model.shape == "triple" else 1) + walls
+    frames = 1 + int(read_variables(INPUT / "shear.in")["frames"])
     left = [s for s in request.stresses if not all(phase.done for phase in shearing(folder, request, s))]
-    return int(len(left) * discs * BYTES_PER_FRAME_AND_DISC * FRAMES)
+    return int(len(left) * request.model.ngrains * request.model.discs * BYTES_PER_FRAME_AND_DISC * frames)
 
 
-def _common(request: Request) -> dict[str, str]:
+def _common(request: Request, place: Path) -> dict[str, str]:
     return {
         "model": request.model.name,
+        "models": _models_from(place, request.model.path),
         "seed": str(request.seed),
         "law": request.law,
         "dt": request.dt,
         "stiffness": f"{request.stiffness:g}",
     }
+
+
+def _models_from(place: Path, model: Path) -> str:
+    """The folder of a model as decks can include it from there: LAMMPS takes no blanks, but from there may be none."""
+    folder = str(model.parent.resolve())
+    if " " in folder:
+        folder = os.path.relpath(folder, place.resolve())
+    if " " in folder + model.name:
+        raise InputError(f"model {model}: LAMMPS cannot include a file with a blank in its name or that of its folder")
+    return folder

@@ -82,14 +82,14 @@ def _page(results: Results, summary: dict[str, Any], pictures: dict[str, str]) -
     return environment.get_template("report.html.j2").render(
         summary=summary, shears=results.shears, line=results.line, pictures=pictures, logs=phase_logs(results),
         consolidations=results.consolidations,
-        comments=_comments(summary["model"]),
+        comments=_comments(results.model_file),
     )  # fmt: skip
 
 
-def _comments(model: str) -> dict[str, str]:
+def _comments(model: Path) -> dict[str, str]:
     """What the decks say about their variables; the page goes without when they are not there."""
     try:
-        of_model = read_comments(INPUT / "models" / f"{model}.in")
+        of_model = read_comments(model)
         return {**read_comments(INPUT / "parameters.in"), **{f"model {k}": text for k, text in of_model.items()}}
     except ShearboxError:
         return {}

@@ -116,11 +116,12 @@ def open_folder(folder: Path, request: Request, parameters: dict[str, str]) -> N
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"--out {folder}: {error.strerror}") from error
-    write_json(path, {"identity": asked, "stresses": sorted(stresses)})
+    where = str(request.model.path.resolve())
+    write_json(path, {"identity": asked, "stresses": sorted(stresses), "model_file": where})
 
 
 def read_record(folder: Path) -> dict[str, Any]:
-    """`identity` and `stresses` of the run in a folder."""
+    """`identity`, `stresses` and `model_file` of the run in a folder; the first two are always there."""
     path = folder / FILE
     try:
         record = json.loads(path.read_text(encoding="utf-8"))

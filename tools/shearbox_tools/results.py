@@ -70,6 +70,7 @@ class Results:
 
     folder: Path
     identity: dict[str, Any]
+    model_file: Path  # where the model was; it may be gone
     stresses: list[float]  # asked for, kPa
     packing: dict[str, float] | None
     consolidations: dict[float, dict[str, float]]
@@ -120,7 +121,9 @@ def read_results(folder: Path) -> Results:
                 notes.append(
                     f"{sigma:g} kPa: τ has no peak within the travel; its greatest value, at {where}, is taken"
                 )
-    return Results(folder, record["identity"], record["stresses"], packing, consolidations, shears, problems, notes)
+    identity, stresses = record["identity"], record["stresses"]
+    model_file = Path(record.get("model_file", ""))
+    return Results(folder, identity, model_file, stresses, packing, consolidations, shears, problems, notes)
 
 
 def _read_shear(
