@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from shearbox_tools.errors import ShearboxError
-from shearbox_tools.models import INPUT, all_models, find_model, read_model, read_variables
+from shearbox_tools.models import INPUT, PARAMETERS, all_models, find_model, read_comments, read_model, read_variables
+from shearbox_tools.presets import LAWS
 from shearbox_tools.table import print_models
 
 NAME = re.compile(r"Type[A-D]_(\d+)x(\d+)_(?:T-(\d)|(\d)-(\d))_([13])-circle_(\d+)")
@@ -102,3 +103,7 @@ def test_a_damaged_model_is_named(tmp_path, change, message):
     with pytest.raises(ShearboxError, match=message) as error:
         read_model(path)
     assert str(path) in str(error.value)
+
+
+def test_the_laws_are_those_that_the_decks_name():
+    assert read_comments(PARAMETERS)["law"].endswith(f": {' or '.join(LAWS)}")

@@ -8,7 +8,7 @@ import pytest
 from shearbox_tools.errors import InputError
 from shearbox_tools.models import INPUT, all_models, find_model, read_model
 from shearbox_tools.phases import disk_need, packing, shearing
-from shearbox_tools.request import Request
+from shearbox_tools.request import Request, check
 
 HEADER = "# step displacement_mm tau_kPa\n"
 GOODBYE = "...\nTotal wall time: 0:00:01\n"
@@ -90,6 +90,16 @@ def test_where_the_decks_find_a_model(tmp_path, model, results, seen):
     else:
         variables = packing(tmp_path / results, asked).variables
         assert (variables["model"], variables["models"]) == ("sand", seen.format(tmp=tmp_path))
+
+
+def test_a_half_travels_as_far_as_its_flanges_are_long(tmp_path, monkeypatch):
+    """The decks say how long."""
+    parameters = tmp_path / "parameters.in"
+    parameters.write_text("variable flanges index 0.05 # over the width\n", encoding="utf-8")
+    check(request())
+    monkeypatch.setattr("shearbox_tools.request.PARAMETERS", parameters)
+    with pytest.raises(InputError, match="--travel 8: 0.1 to 5 mm, 0.05 of the box's width"):
+        check(request())
 
 
 def test_disk_need_grows_with_what_is_left(tmp_path):

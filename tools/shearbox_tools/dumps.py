@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from .errors import ShearboxError
+from .files import COLUMNS
 from .readers import Columns, parse_numbers, require, short
 
 GRAINS = ("id", "x", "y", "radius", "angle", "wall", "lower", "lid")  # columns that are needed
@@ -45,7 +46,7 @@ class Dump:
     def __init__(self, path: Path, columns: tuple[str, ...]) -> None:
         self.path = path
         self.columns = columns
-        self._names_file = path.with_suffix(".columns")
+        self._names_file = path.with_suffix(COLUMNS)
         self._given = self._names_file.read_text(encoding="utf-8").split() if self._names_file.exists() else []
         self._blocks = self._read_index()
 

@@ -10,6 +10,7 @@ from .errors import InputError, ShearboxError
 
 ROOT = Path(__file__).resolve().parents[2]
 INPUT = ROOT / "input"
+PARAMETERS = INPUT / "parameters.in"
 SUFFIX = ".in"
 
 _VARIABLE = re.compile(

@@ -5,12 +5,14 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from .files import PACKED, stress_folder
 from .errors import InputError
+from .files import CONSOLIDATED_TABLE, PACKED, PACKED_RESTART, PACKED_TABLE, SHEAR_DONE, SHEAR_TABLE
+from .files import log_file, stress_folder
 from .models import INPUT, read_variables
 from .readers import last_value
 from .request import Request
 
+DECKS = PACK, CONSOLIDATE, SHEAR = "pack", "consolidate", "shear"
 BYTES_PER_FRAME_AND_DISC = 400  # of the three dumps together; the walls' share is in it
 
 
@@ -32,12 +34,12 @@ class Phase:
     @property
     def deck(self) -> Path:
         """The input file of the engine."""
-        return INPUT / f"{self.name}.in"
+        return deck(self.name)
 
     @property
     def log(self) -> Path:
         """The engine's log."""
-        return self.folder / f"{self.name}.log"
+        return log_file(self.folder, self.name)
 
     @property
     def screen(self) -> Path:
@@ -58,29 +60,34 @@ class Phase:
 
     def displacement(self) -> float:
         """Shear displacement (mm) reached so far, from the last whole row of shear.dat; 0 when there is none."""
-        return last_value(self.folder / "shear.dat", "displacement_mm") or 0.0
+        return last_value(self.folder / SHEAR_TABLE, "displacement_mm") or 0.0
+
+
+def deck(name: str) -> Path:
+    """The input file of that name."""
+    return INPUT / f"{name}.in"
 
 
 def packing(folder: Path, request: Request) -> Phase:
     """The phase that all stresses share."""
-    return Phase("pack", folder / PACKED, _common(request, folder / PACKED), "packed.csv")
+    return Phase(PACK, folder / PACKED, _common(request, folder / PACKED), PACKED_TABLE)
 
 
 def shearing(folder: Path, request: Request, sigma: float) -> list[Phase]:
     """Consolidation and shear at one stress (kPa)."""
     place = stress_folder(folder, sigma)
     common = {**_common(request, place), "sigma": f"{sigma:g}"}
-    packed = os.path.relpath(folder / PACKED / "packed.restart", place)  # no blank, whatever the folder's name
+    packed = os.path.relpath(folder / PACKED / PACKED_RESTART, place)  # no blank, whatever the folder's name
     shear = {"speed": f"{request.speed:g}", "travel": f"{request.travel:g}"}
     return [
-        Phase("consolidate", place, {**common, "packed": packed}, "consolidated.csv", sigma),
-        Phase("shear", place, {**common, **shear}, "shear.done", sigma),
+        Phase(CONSOLIDATE, place, {**common, "packed": packed}, CONSOLIDATED_TABLE, sigma),
+        Phase(SHEAR, place, {**common, **shear}, SHEAR_DONE, sigma),
     ]
 
 
 def disk_need(request: Request, folder: Path) -> int:
     """Bytes that the phases not yet done will write, roughly."""
-    frames = 1 + int(read_variables(INPUT / "shear.in")["frames"])
+    frames = 1 + int(read_variables(deck(SHEAR))["frames"])
     left = [s for s in request.stresses if not all(phase.done for phase in shearing(folder, request, s))]
     return int(len(left) * request.model.ngrains * request.model.discs * BYTES_PER_FRAME_AND_DISC * frames)
 

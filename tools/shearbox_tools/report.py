@@ -12,8 +12,8 @@ from .curves import draw_curves
 from .display import duration
 from .drawing import draw_specimen
 from .errors import ShearboxError
-from .files import write_json, write_text
-from .models import INPUT, read_comments
+from .files import CURVE, PAGE, SUMMARY, write_json, write_text
+from .models import PARAMETERS, read_comments
 from .results import Results, Shear, read_results
 from .specimen import Film
 from .summary import phase_logs, summarise
@@ -32,9 +32,9 @@ def report(folder: Path) -> Path:
     pictures = _pictures(results)
     summary = summarise(results)
     for shear in results.shears:
-        write_text(shear.folder / "curve.csv", _curve(shear))
-    write_json(folder / "summary.json", summary)
-    page = folder / "report.html"
+        write_text(shear.folder / CURVE, _curve(shear))
+    write_json(folder / SUMMARY, summary)
+    page = folder / PAGE
     write_text(page, _page(results, summary, pictures))
     if results.problems:
         raise ShearboxError(f"{page} is written, but not all files can be read:\n" + "\n".join(results.problems))
@@ -90,7 +90,7 @@ def _comments(model: Path) -> dict[str, str]:
     """What the decks say about their variables; the page goes without when they are not there."""
     try:
         of_model = read_comments(model)
-        return {**read_comments(INPUT / "parameters.in"), **{f"model {k}": text for k, text in of_model.items()}}
+        return {**read_comments(PARAMETERS), **{f"model {k}": text for k, text in of_model.items()}}
     except ShearboxError:
         return {}
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from .dumps import CONTACTS, DISCS, GRAINS, Dump
+from .files import CONTACTS_DUMP, DISCS_DUMP, GRAINS_DUMP
 from .readers import Columns
 
 
@@ -43,9 +44,9 @@ class Film:
     """The dumps of one shear phase; displacements (mm) of the frames come from the table of the phase."""
 
     def __init__(self, folder: Path, steps: np.ndarray, displacements: np.ndarray) -> None:
-        self._grains = Dump(folder / "grains.dump", GRAINS)
-        self._discs = Dump(folder / "discs.dump", DISCS)
-        self._contacts = Dump(folder / "contacts.dump", CONTACTS)
+        self._grains = Dump(folder / GRAINS_DUMP, GRAINS)
+        self._discs = Dump(folder / DISCS_DUMP, DISCS)
+        self._contacts = Dump(folder / CONTACTS_DUMP, CONTACTS)
         first = self._discs.nearest(0)
         # rows of the table are averages over the interval that ends at their step: on average half of it ago
         self._steps = np.concatenate([[first], steps - np.diff(steps, prepend=first) / 2])
@@ -76,7 +77,7 @@ def count_lost(folder: Path, total: int, width: float, half_height: float) -> in
     width and half_height in m: the inside of the box is 0 < x < width, from y = 0 to the lid, and has moved below
     half_height as far as the discs of the lower half have.
     """
-    dump = Dump(folder / "grains.dump", GRAINS)
+    dump = Dump(folder / GRAINS_DUMP, GRAINS)
     before, grains = dump.frame(dump.steps[0]), dump.frame(dump.steps[-1])
     x, y, radius = grains["x"], grains["y"], grains["radius"]
     moved = x[grains["lower"] == 1].mean() - before["x"][before["lower"] == 1].mean()
