@@ -122,8 +122,9 @@ class Dump:
 
     def _order(self, head: _Head) -> list[int]:
         names = [self._name(word) for word in head.names]
-        nameless = any(name.endswith("]") for name in names)
-        require(names, self.columns, self.path, f"; {self._names_file.name} should name them all" if nameless else "")
+        nameless = [name for name in names if name.endswith("]")]
+        hint = f"; {self._names_file.name} could say what {nameless[0]} is, but does not" if nameless else ""
+        require(names, self.columns, self.path, hint)
         return [names.index(name) for name in self.columns]
 
     def _name(self, word: str) -> str:

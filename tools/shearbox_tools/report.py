@@ -49,7 +49,8 @@ def _pictures(results: Results) -> dict[str, str]:
             film = Film(shear.folder, shear.data["step"], shear.data["displacement_mm"])
             pictures[f"specimen {shear.sigma:g}"] = draw_specimen(film, shear.peak.position)
         except ShearboxError as error:
-            results.problems.append(str(error))
+            if str(error) not in results.problems:  # the search for lost grains may have met it before
+                results.problems.append(str(error))
     return pictures
 
 
