@@ -65,7 +65,7 @@ def test_the_tables(folder: Path) -> None:
 
 
 def test_five_discs_a_grain_where_they_belong(folder: Path) -> None:
-    """Each a quarter of the circumscribed diameter in radius, one in the middle and four around it as the grain turns."""
+    """Each half as large as the grain, one in the middle and four around it as the grain turns."""
     shear = read_shear(folder / SHEAR_TABLE)
     last = Film(folder, shear["step"], shear["displacement_mm"]).last()
     row = {i: k for k, i in enumerate(last.grains["id"])}

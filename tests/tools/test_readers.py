@@ -194,7 +194,8 @@ def test_columns_without_names_are_refused(frames):
     (frames / "discs.columns").unlink()
     with pytest.raises(ShearboxError, match=r"no column id, disc.*; discs.columns could say what c_discs\[1\] is"):
         Dump(frames / "discs.dump", DISCS).frame(0)
-    edit(frames / "grains.dump", 9, "ITEM: ATOMS id type x y vx vy omegaz radius f_motion[4] c_trm v_wall v_lower v_lid")
+    names = "id type x y vx vy omegaz radius f_motion[4] c_trm v_wall v_lower v_lid"
+    edit(frames / "grains.dump", 9, f"ITEM: ATOMS {names}")
     with pytest.raises(ShearboxError, match=r"grains.dump: there is no column angle; .* f_motion\[4\]"):
         Dump(frames / "grains.dump", GRAINS).frame(0)
 

@@ -80,7 +80,7 @@ def read_model(path: Path) -> Model:
 
 
 def _written_out(shape: str, path: Path) -> str:
-    """The template of a model, with the discs of one that is in a file beside the model's. The engine checks the discs."""
+    """The template of a model; one from a file beside the model's has its discs put in. The engine checks them."""
     kind, *rest = shape.split() or ["nothing"]
     if kind == "file" and len(rest) == 1:
         rows = [line.split("#")[0].split() for line in _text(path.parent / rest[0]).splitlines()]
@@ -111,7 +111,8 @@ def find_model(name: str, models: list[Model]) -> Model:
             return model
     names = [model.name for model in models]
     close = [n for n in names if name.lower() in n.lower()] or difflib.get_close_matches(name, names, 3, 0.5)
-    hint = "Did you mean\n  " + "\n  ".join(close[:4]) if close else f"'shearbox models' lists them; a file ends in {SUFFIX}"
+    known = f"'shearbox models' lists them; a file of your own ends in {SUFFIX}"
+    hint = "Did you mean\n  " + "\n  ".join(close[:4]) if close else known
     raise InputError(f"unknown model '{name}'. {hint}")
 
 

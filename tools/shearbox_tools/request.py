@@ -79,7 +79,8 @@ def _shear_problems(request: Request) -> list[str]:
     if not 0.1 <= request.travel <= share * width:
         hint = f"; {request.travel:g} m would be {request.travel * 1000:g}" if 1e-4 <= request.travel < 0.1 else ""
         problems.append(
-            f"--travel {request.travel:g}: 0.1 to {share * width:g} mm, {share:g} of the box's width, are expected{hint}"
+            f"--travel {request.travel:g}: 0.1 to {share * width:g} mm, {share:g} of the box's width, "
+            f"are expected{hint}"
         )
     return problems
 
