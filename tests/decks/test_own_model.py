@@ -16,6 +16,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 from shearbox_tools.dumps import Dump  # noqa: E402
 from shearbox_tools.files import DISCS_DUMP, GRAINS_DUMP, PACKED_TABLE, SHEAR_DONE, SHEAR_TABLE  # noqa: E402
+from shearbox_tools.models import read_model  # noqa: E402
 from shearbox_tools.readers import read_row, read_shear  # noqa: E402
 from shearbox_tools.specimen import Film, count_lost  # noqa: E402
 
@@ -70,7 +71,7 @@ def test_five_discs_a_grain_where_they_belong(folder: Path) -> None:
     last = Film(folder, shear["step"], shear["displacement_mm"]).last()
     row = {i: k for k, i in enumerate(last.grains["id"])}
     discs = {name: column[~last.walls] for name, column in last.discs.items()}
-    assert len(discs["id"]) == 5 * GRAINS
+    assert len(discs["id"]) == 5 * GRAINS == read_model(folder / "crosses.in").discs * GRAINS
     assert np.count_nonzero(last.grains["wall"] == 0) == GRAINS
     grain = np.array([row[i] for i in discs["id"]])
     assert discs["radius"] == pytest.approx(D / 2) and last.grains["radius"][grain] == pytest.approx(D)
