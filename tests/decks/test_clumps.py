@@ -941,8 +941,10 @@ REFUSED = {
     BOTH + " orient 0": "orient 0: the seed must be positive",
     BOTH + " orient -4": "orient -4: the seed must be positive",
     BOTH + " orient 1.5": "orient is 1.5, must be an integer",
-    BOTH + " colour red": "unknown keyword colour; allowed: type, density, orient",
+    BOTH + " colour red": "unknown keyword colour; allowed: folder, type, density, orient",
     BOTH + f"\nfix more all cdem/shape {BOTH}": "Fix cdem/shape more: there is one already, shape",
+    BOTH + " folder": "folder needs a name",
+    "folder elsewhere type 1 file good type 2 single": "can't read the template file elsewhere/good: No such file",
     "type 1 file": "file needs a name",
     "type 1 file missing type 2 single": "file missing: No such file",
     "type 1 file empty type 2 single": "file empty: it has no discs",
@@ -971,6 +973,44 @@ def test_good_templates(tmp_path: Path) -> None:
         arguments = f"type 1 {template} type 2 single"
         status, output = offer(arguments, tmp_path)
         assert status == 0 and "not refused" in output, arguments
+
+
+def test_a_template_file_in_another_folder(tmp_path: Path) -> None:
+    (tmp_path / "shapes").mkdir()
+    (tmp_path / "shapes" / "pair").write_text("0 0 1\n2 0 1\n")
+    for folder, name in (("shapes", "pair"), ("nowhere", tmp_path / "shapes" / "pair")):
+        status, output = offer(f"folder {folder} type 1 file {name} type 2 single", tmp_path)
+        assert status == 0 and "not refused" in output, output
+
+
+LENS = 2 * math.pi / 3 - SQRT3 / 2  # area that two discs of radius 1 share when their centres are 1 apart
+
+
+@pytest.mark.parametrize(
+    ("template", "discs", "size", "fill"),
+    [
+        ("single", 1, 1, 1),
+        ("triple", 3, 1 + 2 / SQRT3, 3 / (1 + 2 / SQRT3) ** 2),
+        ("discs 2 0 0 2 3 0 1", 2, 1.7, 5 / 3.4**2),  # their centre is 0.6 from the larger one: 3.4 = 2.4 + 1
+        ("discs 2 5 5 1 6 5 1", 2, 1.5, (2 - LENS / math.pi) / 1.5**2),
+        ("discs 5 0 0 1 1 0 1 -1 0 1 0 1 1 0 -1 1", 5, 2, (4 + 2 * math.pi) / (4 * math.pi)),  # a square, 4 half discs
+    ],
+)
+def test_what_a_shape_says_of_itself(tmp_path: Path, template: str, discs: int, size: float, fill: float) -> None:
+    """Discs of a grain, circumscribed circle over the largest disc, area over that of the circle; per type."""
+    deck = f"""
+    include ${{decks}}/start.in
+    fix shape all cdem/shape type 1 single type 2 {template}
+    print "discs = $(f_shape[2][1])"
+    print "size = $(f_shape[2][2]:%.17g)"
+    print "fill = $(f_shape[2][3]:%.17g)"
+    print "first = $(f_shape[1][1]+f_shape[1][2]+f_shape[1][3])"
+    """
+    out = run(deck, tmp_path, discs=[Disc(0, 0), Disc(0.01, 0, type=2)])
+    assert out.printed("first") == 3
+    assert out.printed("discs") == discs
+    assert out.printed("size") == pytest.approx(size, rel=1e-15)
+    assert out.printed("fill") == pytest.approx(fill, rel=1e-13)
 
 
 @pytest.mark.parametrize(("arguments", "message"), REFUSED.items(), ids=[key.replace("\n", "; ") for key in REFUSED])

@@ -289,6 +289,14 @@ def test_discs_and_dumps(tmp_path: Path, ranks: int) -> None:
         assert head[8].split() == ["ITEM:", what, *names.split()]
 
 
+def test_fields_of_discs_in_the_order_they_are_asked_for(tmp_path: Path) -> None:
+    deck = "compute all all cdem/discs\ncompute some all cdem/discs radius type id\n"
+    deck += dump("local", "all", 1000, "c_all[*]") + dump("local", "some", 1000, "c_some[*]") + "run 0\n"
+    done = free(tmp_path, deck)
+    everything, some = (list(done.dump(f"{name}.dump")[-1].columns.values()) for name in ("all", "some"))
+    assert np.array(some).tolist() == np.array([everything[k] for k in (4, 6, 0)]).tolist()
+
+
 def test_a_spinning_clump(tmp_path: Path, ranks: int) -> None:
     """Three touching discs of radius r = R/(1 + 2/sqrt(3)): their places, I = 11/6 m r^2, and R |omega|/|v| for TRM."""
     radius, omega, v, t = 4e-3, 30.0, (0.3, -0.4), 0.01
@@ -401,7 +409,7 @@ pair_coeff * *
 REFUSED: dict[str, tuple[str, Sequence[str]]] = {
     "unknown-field": ("compute c all cdem/contacts fn force", ["contacts c: unknown field force", "id1 id2 disc1"]),
     "trm-argument": ("compute c all cdem/trm 7", ["Compute cdem/trm c: unknown argument 7"]),
-    "discs-argument": ("compute c all cdem/discs 7", ["Compute cdem/discs c: unknown argument 7"]),
+    "unknown-disc-field": ("compute c all cdem/discs x z", ["discs c: unknown field z; allowed: id disc x y radius"]),
     "energy-argument": ("compute c all cdem/energy 7", ["Compute cdem/energy c: unknown argument 7"]),
     "trm-unfixed": ("compute c all cdem/trm\nunfix CDEM_TRM_c\nrun 0", ["trm c: its fix CDEM_TRM_c is gone"]),
     "discs-no-pair": (STOCK + "compute c all cdem/discs\nrun 0", ["discs c needs pair_style cdem"]),

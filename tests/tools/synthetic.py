@@ -50,13 +50,13 @@ def curves(sigma: float, travel: float, rows: int = 800, seed: int = 1) -> dict[
 
 
 def write_shear(path: Path, columns: dict[str, np.ndarray], rows: slice = slice(None), mode: str = "w") -> None:
-    """shear.dat as `fix ave/time` writes it."""
+    """shear.dat as shear.in writes it."""
     table = np.column_stack(list(columns.values()))[rows]
     with path.open(mode, encoding="utf-8") as stream:
         if mode == "w":
-            stream.write("# Time-averaged data for fix curve\n# " + " ".join(columns) + "\n")
+            stream.write("# " + " ".join(columns) + "\n")
         for row in table:
-            stream.write(f"{int(row[0])} " + " ".join(f"{value:.10g}" for value in row[1:]) + "\n")
+            stream.write(" ".join(f"{value:.10g}" for value in row) + "\n")
 
 
 def write_row(path: Path, **values: float) -> None:
@@ -76,8 +76,9 @@ def packing(width: float, height: float, radius: float) -> np.ndarray:
     return np.array(centres)
 
 
-def walls(width: float, half_height: float, diameter: float, shift: float) -> np.ndarray:
-    """(n, 2) centres of floor, lid, sides and flanges; the lower half is moved by `shift`."""
+def walls(width: float, half_height: float, diameter: float, shift: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(n, 2) centres of floor, lid, sides and flanges; which of them are of the lower half, moved by `shift`; which of
+    the lid."""
     columns = np.arange(half_height - diameter / 2, -diameter, -diameter)
     floor = np.arange(diameter / 2, width, diameter)
     out = np.arange(1, 6) * diameter
@@ -87,7 +88,8 @@ def walls(width: float, half_height: float, diameter: float, shift: float) -> np
     lower += [(-diameter / 2 - d, half_height - diameter / 2) for d in out]
     lower += [(width + diameter / 2 + d, half_height - diameter / 2) for d in out]
     upper = [(x, 2 * half_height - y) for x, y in lower]
-    return np.array([(x + shift, y) for x, y in lower] + upper)
+    centres = np.array([(x + shift, y) for x, y in lower] + upper)
+    return centres, np.arange(len(centres)) < len(lower), centres[:, 1] > 2 * half_height
 
 
 def write_frames(folder: Path, steps: list[int], travel: float, width: float = 0.1, half_height: float = 0.05) -> None:
@@ -103,7 +105,8 @@ def write_frames(folder: Path, steps: list[int], travel: float, width: float = 0
         angle = 0.01 * np.arange(len(start)) + 2 * shear / radius * np.sin(40 * start[:, 0]) * np.exp(
             -(((start[:, 1] - half_height) / 0.02) ** 2)
         )
-        border = walls(width, half_height, 2 * radius, shear)
+        border, is_lower, is_lid = walls(width, half_height, 2 * radius, shear)
+        flags = ["0 0 0"] * len(centres) + [f"1 {lower:d} {lid:d}" for lower, lid in zip(is_lower, is_lid)]
         where = np.vstack([centres, border])
         angles = np.concatenate([angle, np.zeros(len(border))])
         types = [1] * len(centres) + [2] * len(border)
@@ -111,24 +114,31 @@ def write_frames(folder: Path, steps: list[int], travel: float, width: float = 0
         texts["grains"].append(
             _frame(
                 step,
-                "ATOMS id type x y vx vy omega radius angle trm",
-                [f"{i + 1} {t} {x:.8g} {y:.8g} 0 0 0 {radius} {a:.6g} 0.7" for i, (t, (x, y), a) in enumerate(rows)],
+                "ATOMS id type x y vx vy omegaz radius v_angle c_trm v_wall v_lower v_lid",
+                [
+                    f"{i + 1} {t} {x:.8g} {y:.8g} 0 0 0 {radius} {a:.6g} 0.7 {flags[i]}"
+                    for i, (t, (x, y), a) in enumerate(rows)
+                ],
             )
         )
         texts["discs"].append(
             _frame(
                 step,
-                "ENTRIES index " + " ".join(f"c_discs[{k}]" for k in range(1, 8)),
-                [f"{i + 1} {i + 1} 1 {x:.8g} {y:.8g} {radius} {a:.6g} {t}" for i, (t, (x, y), a) in enumerate(rows)],
+                "ENTRIES " + " ".join(f"c_discs[{k}]" for k in range(1, 8)),
+                [f"{i + 1} 0 {x:.8g} {y:.8g} {radius} {a:.6g} {t}" for i, (t, (x, y), a) in enumerate(rows)],
             )
         )
         texts["contacts"].append(
             _frame(
                 step,
-                "ENTRIES index " + " ".join(f"c_contacts[{k}]" for k in range(1, 15)),
+                "ENTRIES " + " ".join(f"c_contacts[{k}]" for k in range(1, 15)),
                 _contact_rows(centres, radius),
             )
         )
+    (folder / "discs.columns").write_text("id disc x y radius angle type\n", encoding="utf-8")
+    (folder / "contacts.columns").write_text(
+        "id1 id2 disc1 disc2 x y fn ft fx fy nx ny overlap sliding\n", encoding="utf-8"
+    )
     for name, frames in texts.items():
         (folder / f"{name}.dump").write_text("".join(frames), encoding="utf-8")
     assert len(start) == GRAINS
@@ -143,7 +153,7 @@ def _contact_rows(centres: np.ndarray, radius: float) -> list[str]:
         force = 100 * (1 + n[0] * n[1]) * (1 + 0.5 * np.sin(300 * centres[i, 0]))
         x, y = (centres[i] + centres[j]) / 2
         rows.append(
-            f"{len(rows) + 1} {i + 1} {j + 1} 1 1 {x:.8g} {y:.8g} {force:.6g} 0 {force * n[0]:.6g} "
+            f"{i + 1} {j + 1} 0 0 {x:.8g} {y:.8g} {force:.6g} 0 {force * n[0]:.6g} "
             f"{force * n[1]:.6g} {n[0]:.6g} {n[1]:.6g} 1e-6 0"
         )
     return rows

@@ -2,11 +2,13 @@
 """The models: their files against their names, and what happens to a damaged file."""
 
 import re
+from pathlib import Path
 
 import pytest
 
 from shearbox_tools.errors import ShearboxError
-from shearbox_tools.models import INPUT, all_models, read_model, read_variables
+from shearbox_tools.models import INPUT, PARAMETERS, all_models, find_model, read_comments, read_model, read_variables
+from shearbox_tools.presets import LAWS
 from shearbox_tools.table import print_models
 
 NAME = re.compile(r"Type[A-D]_(\d+)x(\d+)_(?:T-(\d)|(\d)-(\d))_([13])-circle_(\d+)")
@@ -24,7 +26,7 @@ def test_the_name_encodes_the_numbers(model):
     assert model.dmin == pytest.approx(int(equal or low) / 1000)
     assert model.dmax == pytest.approx(int(equal or high) / 1000)
     assert model.ngrains == int(grains)
-    assert model.shape == {"1": "single", "3": "triple"}[discs]
+    assert model.discs == int(discs)
     assert model.power == (0 if discs == "3" else -3) or equal
 
 
@@ -33,6 +35,52 @@ def test_the_table_names_them_all(capsys):
     table = capsys.readouterr().out
     assert all(model.name in table for model in all_models())
     assert "10 × 10" in table and "n(d) ∝ d^-3" in table
+
+
+def own(folder: Path, shape: str) -> Path:
+    """A model with a shape of its own."""
+    path = folder / "own.in"
+    text = (INPUT / "models" / "TypeA_10x5_4-8_1-circle_350.in").read_text(encoding="utf-8")
+    path.write_text(text.replace("index single", f"index {shape}"), encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize(
+    "shape, discs, template",
+    [
+        ("triple", 3, "triple"),
+        ('"discs 2 0 0 1 1 0 1"', 2, "discs 2 0 0 1 1 0 1"),
+        ('"discs 2  0 0 1 &\n  1 0 1"', 2, "discs 2  0 0 1    1 0 1"),
+        ('"file grain.txt"', 2, "discs 2 0 0 1 1 0 .5"),
+    ],
+)
+def test_a_model_of_ones_own(tmp_path, shape, discs, template):
+    """A template in a file is recorded as the discs that it had."""
+    (tmp_path / "grain.txt").write_text("# x y r\n0 0 1\n\n1 0 .5 # the small one\n", encoding="utf-8")
+    model = find_model(str(own(tmp_path, shape)), [])
+    assert (model.name, model.discs, model.variables["shape"]) == ("own", discs, template)
+
+
+@pytest.mark.parametrize(
+    "shape, message",
+    [
+        ("quadruple", "own.in: shape quadruple: single, triple, 'discs N x y r ...' or 'file NAME' is expected"),
+        ("discs", "own.in: shape discs: single"),
+        ('"discs many 0 0 1"', "own.in: shape discs many 0 0 1: single"),
+        ('"file none.txt"', "none.txt: No such file"),
+    ],
+)
+def test_a_shape_that_is_none_is_named(tmp_path, shape, message):
+    with pytest.raises(ShearboxError) as error:
+        read_model(own(tmp_path, shape))
+    assert message in str(error.value)
+
+
+def test_what_else_a_model_says_is_recorded(tmp_path):
+    """So that a changed one is not taken for the one that was packed."""
+    path = own(tmp_path, "single")
+    path.write_text(path.read_text(encoding="utf-8") + "variable loose index 2.5 # column\n", encoding="utf-8")
+    assert read_model(path).variables["loose"] == "2.5"
 
 
 def test_variables_without_their_comments():
@@ -55,3 +103,7 @@ def test_a_damaged_model_is_named(tmp_path, change, message):
     with pytest.raises(ShearboxError, match=message) as error:
         read_model(path)
     assert str(path) in str(error.value)
+
+
+def test_the_laws_are_those_that_the_decks_name():
+    assert read_comments(PARAMETERS)["law"].endswith(f": {' or '.join(LAWS)}")

@@ -18,7 +18,7 @@ assert SPEC
 example = module_from_spec(SPEC)
 LOADER.exec_module(example)
 
-MODEL = Model("A", 0.1, 0.05, 0.002, 0.004, 0, 1500, "single")
+MODEL = Model(Path("A.in"), 0.1, 0.05, 0.002, 0.004, 0, 1500, "single")
 
 
 def test_mean_square() -> None:

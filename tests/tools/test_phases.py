@@ -5,10 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from shearbox_tools.models import all_models, find_model
+from shearbox_tools.errors import InputError
+from shearbox_tools.models import INPUT, all_models, find_model, read_model
 from shearbox_tools.phases import disk_need, packing, shearing
-from shearbox_tools.request import Request
+from shearbox_tools.request import Request, check
 
+HEADER = "# step displacement_mm tau_kPa\n"
 GOODBYE = "...\nTotal wall time: 0:00:01\n"
 
 
@@ -38,7 +40,8 @@ def test_done_is_a_whole_table_and_an_engine_that_said_goodbye(tmp_path, table, 
 
 def test_variables_of_the_decks(tmp_path):
     consolidate, shear = shearing(tmp_path, request(), 100)
-    common = {"model": "TypeA_10x5_4-8_1-circle_350", "seed": "7", "law": "direct", "dt": "auto",
+    common = {"model": "TypeA_10x5_4-8_1-circle_350", "models": str(INPUT / "models"), "seed": "7",
+              "law": "direct", "dt": "auto",
               "stiffness": "1", "sigma": "100"}
     assert consolidate.variables == {**common, "packed": "../packed/packed.restart"}
     assert shear.variables == {**common, "speed": "2", "travel": "8"}
@@ -47,7 +50,16 @@ def test_variables_of_the_decks(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "text, reached", [("# step s\n5000 0.25 1\n", 0.25), ("5000 0.25 1\n10000 0.5", 0.25), ("# step s\n", 0), ("", 0)]
+    "text, reached",
+    [
+        (HEADER + "5000 0.25 1\n", 0.25),
+        (HEADER + "5000 0.25 1\n10000 0.5", 0.25),
+        (HEADER + "5000 0.25 1\n" + HEADER, 0.25),
+        ("# step tau_kPa displacement_mm\n5000 60 0.25\n", 0.25),
+        ("# step tau_kPa\n5000 60\n", 0),
+        (HEADER, 0),
+        ("", 0),
+    ],
 )
 def test_displacement_of_the_last_whole_line(tmp_path: Path, text, reached):
     shear = shearing(tmp_path, request(), 100)[1]
@@ -55,6 +67,40 @@ def test_displacement_of_the_last_whole_line(tmp_path: Path, text, reached):
     assert shear.displacement() == 0
     (shear.folder / "shear.dat").write_text(text, encoding="utf-8")
     assert shear.displacement() == reached
+
+
+@pytest.mark.parametrize(
+    "model, results, seen",
+    [
+        ("models", "my results", "{tmp}/models"),
+        ("my models", "my models/results", "../.."),
+        ("my models/own", "my models/results", "../../own"),
+        ("my models", "results", None),
+        ("my models/a b", "my models", None),
+    ],
+)
+def test_where_the_decks_find_a_model(tmp_path, model, results, seen):
+    """LAMMPS includes nothing with a blank in its name."""
+    path = tmp_path / model / "sand.in"
+    path.parent.mkdir(parents=True)
+    path.write_text((INPUT / "models" / "TypeA_10x5_4-8_1-circle_350.in").read_text(encoding="utf-8"), encoding="utf-8")
+    asked = Request(read_model(path), (100.0,))
+    if seen is None:
+        with pytest.raises(InputError, match="a blank in its name"):
+            packing(tmp_path / results, asked)
+    else:
+        variables = packing(tmp_path / results, asked).variables
+        assert (variables["model"], variables["models"]) == ("sand", seen.format(tmp=tmp_path))
+
+
+def test_a_half_travels_as_far_as_its_flanges_are_long(tmp_path, monkeypatch):
+    """The decks say how long."""
+    parameters = tmp_path / "parameters.in"
+    parameters.write_text("variable flanges index 0.05 # over the width\n", encoding="utf-8")
+    check(request())
+    monkeypatch.setattr("shearbox_tools.request.PARAMETERS", parameters)
+    with pytest.raises(InputError, match="--travel 8: 0.1 to 5 mm, 0.05 of the box's width"):
+        check(request())
 
 
 def test_disk_need_grows_with_what_is_left(tmp_path):

@@ -9,7 +9,7 @@ import synthetic
 
 from shearbox_tools.dumps import CONTACTS, DISCS, GRAINS, Dump
 from shearbox_tools.errors import ShearboxError
-from shearbox_tools.readers import read_row, read_shear
+from shearbox_tools.readers import last_value, read_row, read_shear
 from shearbox_tools.repair import repair
 
 
@@ -70,11 +70,51 @@ def test_a_damaged_row_is_named(shear, text, message):
     assert f"{shear}, {message}" in str(error.value)
 
 
-@pytest.mark.parametrize("text", ["", "# only a header\n"])
-def test_no_rows(shear, text):
-    shear.write_text(text, encoding="utf-8")
+@pytest.mark.parametrize("lines", [0, 1])
+def test_no_rows(shear, lines):
+    shear.write_text("".join(shear.read_text(encoding="utf-8").splitlines(keepends=True)[:lines]), encoding="utf-8")
     with pytest.raises(ShearboxError, match="no rows of data"):
         read_shear(shear)
+
+
+def test_columns_in_another_order_and_one_more(shear):
+    expected = synthetic.curves(100, 8, rows=20)
+    given = {"pressure_kPa": np.arange(20.0)} | dict(reversed(expected.items()))
+    synthetic.write_shear(shear, given)
+    table = read_shear(shear)
+    for name, column in given.items():
+        assert table[name] == pytest.approx(column, rel=1e-8), name
+    assert last_value(shear, "displacement_mm") == pytest.approx(expected["displacement_mm"][-1])
+
+
+def test_columns_that_are_not_there_are_named(shear):
+    columns = synthetic.curves(100, 8, rows=20)
+    del columns["tau_kPa"], columns["work_J"]
+    synthetic.write_shear(shear, columns)
+    with pytest.raises(ShearboxError, match="shear.dat: there is no column tau_kPa, work_J; the columns are step disp"):
+        read_shear(shear)
+
+
+@pytest.mark.parametrize(
+    "line, text, message",
+    [
+        (1, "5000 1 2 3 4 5 6 7 8 9 10", "line 1: a header '# step ...' is expected, not '5000 1"),
+        (1, "# " + " ".join(synthetic.curves(100, 8)) + " step", "there are several columns step"),
+        (1, "# " + " ".join(synthetic.curves(100, 8)) + " more", "line 2: 12 values are expected, there are 11"),
+        (9, "# " + " ".join(reversed(synthetic.curves(100, 8))), "line 9: the header is no longer 'step disp"),
+    ],
+)
+def test_a_header_that_is_not_that_of_the_rows_is_named(shear, line, text, message):
+    edit(shear, line, text)
+    with pytest.raises(ShearboxError) as error:
+        read_shear(shear)
+    assert str(shear) in str(error.value) and message in str(error.value)
+
+
+def test_a_continued_table_has_its_header_twice(shear):
+    again = shear.read_text(encoding="utf-8")
+    shear.write_text(again + again, encoding="utf-8")
+    assert len(read_shear(shear)["step"]) == 20
 
 
 def test_no_file(tmp_path):
@@ -116,19 +156,65 @@ def test_frames(frames, name, columns):
     assert len({len(column) for column in frame.values()}) == 1
 
 
-def test_columns_go_by_name_or_by_position(frames):
-    grains, discs = Dump(frames / "grains.dump", GRAINS).frame(0), Dump(frames / "discs.dump", DISCS).frame(0)
-    for name in ("id", "type", "x", "y", "radius"):
-        assert np.array_equal(grains[name], discs[name]), name
-    edit(frames / "grains.dump", 9, "ITEM: ATOMS type id x y vx vy omega radius angle trm")
-    assert np.array_equal(Dump(frames / "grains.dump", GRAINS).frame(0)["type"], grains["id"])
+def swapped(row: str, first: int, second: int) -> str:
+    words = row.split()
+    words[first], words[second] = words[second], words[first]
+    return " ".join(words)
 
 
-def test_a_frame_without_rows(tmp_path):
-    path = tmp_path / "contacts.dump"
-    path.write_text(
-        "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n0\nITEM: ENTRIES index " + "c " * 14 + "\n", encoding="utf-8"
-    )
+@pytest.mark.parametrize("name, columns", [("grains", GRAINS), ("discs", DISCS), ("contacts", CONTACTS)])
+def test_columns_that_the_dump_has_in_another_order(frames, name, columns):
+    """As after a swap in the deck's dump command."""
+    path = frames / f"{name}.dump"
+    before = Dump(path, columns).frame(5000)
+    lines = path.read_text(encoding="utf-8").splitlines()
+    for number, line in enumerate(lines):
+        words = line.split()
+        if line.startswith(("ITEM: ATOMS", "ITEM: ENTRIES")):
+            lines[number] = swapped(line, 2 + 2, 2 + 3)
+        elif not line.startswith("ITEM") and len(words) > 6:
+            lines[number] = swapped(line, 2, 3)
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    after = Dump(path, columns).frame(5000)
+    assert all(np.array_equal(before[column], after[column]) for column in columns)
+
+
+def test_columns_that_the_compute_has_in_another_order(frames):
+    """As after a swap of the fields that the deck asks for: the file beside the dump says so."""
+    before = Dump(frames / "contacts.dump", CONTACTS).frame(0)
+    names = frames / "contacts.columns"
+    names.write_text("id2 id1 disc1 disc2 y x fn ft fx fy nx ny overlap sliding\n", encoding="utf-8")
+    after = Dump(frames / "contacts.dump", CONTACTS).frame(0)
+    for one, other in (("id1", "id2"), ("x", "y")):
+        assert np.array_equal(before[one], after[other]) and np.array_equal(before[other], after[one])
+
+
+def test_columns_without_names_are_refused(frames):
+    """As in a folder of a version before names."""
+    (frames / "discs.columns").unlink()
+    with pytest.raises(ShearboxError, match=r"no column id, disc.*; discs.columns could say what c_discs\[1\] is"):
+        Dump(frames / "discs.dump", DISCS).frame(0)
+    names = "id type x y vx vy omegaz radius f_motion[4] c_trm v_wall v_lower v_lid"
+    edit(frames / "grains.dump", 9, f"ITEM: ATOMS {names}")
+    with pytest.raises(ShearboxError, match=r"grains.dump: there is no column angle; .* f_motion\[4\]"):
+        Dump(frames / "grains.dump", GRAINS).frame(0)
+
+
+def test_one_column_more(frames):
+    path = frames / "grains.dump"
+    before = Dump(path, GRAINS).frame(5000)
+    lines = path.read_text(encoding="utf-8").splitlines()
+    lines = [line + (" v_heat" if "ATOMS id" in line else " 7" if len(line.split()) == 13 else "") for line in lines]
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    after = Dump(path, GRAINS).frame(5000)
+    assert all(np.array_equal(before[column], after[column]) for column in GRAINS)
+
+
+def test_a_frame_without_rows(frames):
+    path = frames / "contacts.dump"
+    lines = path.read_text(encoding="utf-8").splitlines()[:9]
+    lines[3] = "0"
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
     assert Dump(path, CONTACTS).frame(0)["fn"].shape == (0,)
 
 
@@ -150,10 +236,10 @@ def test_a_last_frame_that_is_cut_off_is_left_out_and_repaired(frames):
 def test_the_last_of_repeated_frames_counts(frames):
     path = frames / "grains.dump"
     text = path.read_text(encoding="utf-8")
-    path.write_text(text + text[text.rfind("ITEM: TIMESTEP") :].replace(" 0.7\n", " 0.9\n"), encoding="utf-8")
+    path.write_text(text + text[text.rfind("ITEM: TIMESTEP") :].replace(" 0.00277 ", " 0.9 "), encoding="utf-8")
     dump = Dump(path, GRAINS)
     assert dump.steps == [0, 5000, 10000]
-    assert dump.frame(10000)["trm"][0] == 0.9
+    assert dump.frame(10000)["radius"][0] == 0.9
 
 
 @pytest.mark.parametrize(
@@ -162,10 +248,10 @@ def test_the_last_of_repeated_frames_counts(frames):
         (1, "nonsense", "line 1: 'ITEM: TIMESTEP' is expected, not 'nonsense'"),
         (2, "many", "line 2: a whole number is expected, not 'many'"),
         (4, "7", "line 1: a frame of "),
-        (9, "ITEM: ATOMS id type x", "columns id type x y vx"),
-        (12, "3 1 0.01 0.02 0 0 0 0.003 0", "line 12: 10 values are expected, there are 9"),
-        (12, "3 1 0.01 0.02 0 0 0 0.003 0 wide", "line 12: not a number"),
-        (12, "3 1 0.01 0.02 0 0 0 0.003 0 inf", "line 12: a value that is not finite"),
+        (9, "ITEM: ATOMS id type x", "no column y, radius, angle, wall, lower, lid; the columns are id type x"),
+        (12, "3 1 0.01 0.02 0 0 0 0.003 0 0 0 0", "line 12: 13 values are expected, there are 12"),
+        (12, "3 1 0.01 0.02 0 0 0 0.003 0 0 0 0 wide", "line 12: not a number"),
+        (12, "3 1 0.01 0.02 0 0 0 0.003 0 0 0 0 inf", "line 12: a value that is not finite"),
     ],
 )
 def test_a_damaged_dump_is_named(frames, line, text, message):

@@ -151,7 +151,7 @@ def test_a_curve_that_still_rises_is_said(folder):
 
 
 DAMAGED = [
-    ("200/shear.dat", "1 2 3\n", "shear.dat, line 1: 11 values are expected"),
+    ("200/shear.dat", "1 2 3\n", "shear.dat, line 1: a header"),
     ("200/discs.dump", "", "discs.dump: the file is empty"),
     ("200/contacts.dump", "ITEM: ATOMS\n", "contacts.dump, line 1: 'ITEM: TIMESTEP' is expected"),
     ("200/grains.dump", "", "grains.dump: the file is empty"),
@@ -253,6 +253,17 @@ def test_a_grain_outside_the_box_is_lost(folder, place, lost):
     assert count_lost(folder / "100", 350, 0.1, 0.05) == 1, "a grain that is gone"
 
 
+def test_the_lid_of_a_thin_specimen(tmp_path):
+    """It is found by what the deck says, not by its place: here it lies where the halves meet."""
+    names = "id x y radius v_angle v_wall v_lower v_lid"
+    floor, lid, grain = "1 0.05 -0.002 0.002 0 1 1 0", "2 0.05 0.054 0.002 0 1 0 1", "3 0.05 {} 0.003 0 0 0 0"
+    for height, lost in ((0.049, 0), (0.053, 0), (0.058, 1)):
+        rows = "\n".join([floor, lid, grain.format(height)])
+        head = f"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n3\nITEM: ATOMS {names}\n"
+        (tmp_path / "grains.dump").write_text(f"{head}{rows}\n", encoding="utf-8")
+        assert count_lost(tmp_path, 1, 0.1, 0.05) == lost, height
+
+
 def test_frames_are_found_by_displacement(folder):
     truth = synthetic.curves(100, 8)
     film = Film(folder / "100", truth["step"], truth["displacement_mm"])
@@ -265,7 +276,7 @@ def test_frames_are_found_by_displacement(folder):
     assert branches[:, 1] == pytest.approx((branches[:, 0] + branches[:, 2]) / 2, abs=1e-8)
     assert not np.any(film.first().rotation_since(film.first()))
     turned = film.last().rotation_since(film.first())
-    assert turned == pytest.approx(film.last().discs["angle"] - film.first().discs["angle"], abs=1e-4)
+    assert turned == pytest.approx(film.last().grains["angle"] - film.first().grains["angle"], abs=1e-4)
     assert np.ptp(turned) > 1
 
 

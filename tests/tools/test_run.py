@@ -258,6 +258,22 @@ def test_an_unknown_model_gets_suggestions(folder, name, suggestion):
     assert suggestion in refused.stderr
 
 
+def test_a_model_file_of_ones_own(folder, tmp_path):
+    path = tmp_path / "pebbles.in"
+    text = (SHEARBOX.parents[1] / "input" / "models" / f"{MODEL}.in").read_text(encoding="utf-8")
+    path.write_text(text.replace("index single", 'index "discs 2 0 0 1 1 0 1"'), encoding="utf-8")
+    assert shearbox(folder, "--stress", "100", model=str(path)).returncode == 0
+    assert summary(folder)["model"] == "pebbles"
+    assert summary(folder)["parameters"]["model shape"] == "discs 2 0 0 1 1 0 1"
+    assert "inner width of the box" in (folder / "report.html").read_text(encoding="utf-8")
+    path.write_text(text, encoding="utf-8")
+    changed = shearbox(folder, "--stress", "100", model=str(path))
+    assert changed.returncode == 2
+    assert "model shape: discs 2 0 0 1 1 0 1 there, single asked for" in changed.stderr
+    gone = shearbox(folder, model=str(tmp_path / "none.in"))
+    assert gone.returncode == 2 and "none.in: No such file" in gone.stderr
+
+
 @pytest.fixture(name="used", scope="module")
 def _used(tmp_path_factory) -> Path:
     folder = tmp_path_factory.mktemp("used") / "results"

@@ -16,13 +16,11 @@ from pathlib import Path
 from .display import Display, duration
 from .engine import LEAST_FREE_BYTES, Engine, explain_failure, free_bytes, stop
 from .errors import ShearboxError
-from .files import write_json
-from .phases import Phase, packing, shearing
+from .files import LOCK, TIMINGS, write_json
+from .phases import SHEAR, Phase, packing, shearing
 from .repair import repair
 from .request import Request
 
-LOCK = ".lock"
-TIMINGS = "timings.json"
 POLL_SECONDS = 0.2
 
 
@@ -81,14 +79,14 @@ class Campaign:
         repair(phase.folder)
         reached = phase.displacement()
         process = self._engine.start(phase, self._lock)
-        sheared = phase.name == "shear"
+        sheared = phase.name == SHEAR
         self._display.started(phase.label, self._request.travel if sheared else None, reached)
         return process
 
     def _attend(self, job: Job, failures: list[str]) -> bool:
         """Look after a job and go on to its next phase; whether there is more to do for it."""
         phase, status = job.phase, job.process.poll()
-        if phase.name == "shear":
+        if phase.name == SHEAR:
             self._display.moved(phase.label, phase.displacement())
         if status is None:
             return True

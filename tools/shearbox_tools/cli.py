@@ -12,7 +12,7 @@ from types import FrameType
 
 from . import __version__
 from .errors import InputError, ShearboxError
-from .presets import REFERENCE, SPEEDS
+from .presets import LAWS, REFERENCE, SPEEDS
 
 DEPENDENCIES = {"numpy": "python3-numpy", "matplotlib": "python3-matplotlib", "jinja2": "python3-jinja2",
                 "rich": "python3-rich"}  # fmt: skip
@@ -68,7 +68,8 @@ def _add_run(commands) -> None:
         "Run again with the same DIR, it goes on where it stopped; further stresses may be added later.",
         formatter_class=argparse.ArgumentDefaultsHelpFormatter,
     )
-    run.add_argument("model", metavar="MODEL", help="name of a model, as 'shearbox models' lists them")
+    run.add_argument("model", metavar="MODEL",
+                     help="name of a model, as 'shearbox models' lists them, or the path of a model file, NAME.in")  # fmt: skip
     run.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder of the results")
     run.add_argument("--stress", metavar="KPA", type=float, nargs="+", default=[100, 200, 300, 400],
                      help="normal stresses, kPa")  # fmt: skip
@@ -78,7 +79,7 @@ def _add_run(commands) -> None:
                      help="shear speed, mm/s (default: that of --accuracy)")  # fmt: skip
     run.add_argument("--travel", metavar="S", type=float, default=8.0, help="shear displacement at the end, mm")
     run.add_argument("--seed", metavar="N", type=int, default=1, help="seed of the packing")
-    run.add_argument("--law", choices=["direct", "incremental"], default="direct", help="contact law")
+    run.add_argument("--law", choices=LAWS, default=LAWS[0], help="contact law")
     run.add_argument("--dt", metavar="DT", default="auto", help="time step, s; auto: from the stability limit of the contacts")
     run.add_argument("--stiffness", metavar="F", type=float, default=1.0,
                      help="factor on the stiffness of all contacts: less gives larger overlaps and time steps")  # fmt: skip

@@ -9,16 +9,18 @@ from pathlib import Path
 import numpy as np
 
 from .errors import ShearboxError
-from .readers import Columns, parse_numbers, short
+from .files import COLUMNS
+from .readers import Columns, parse_numbers, require, short
 
-GRAINS = ("id", "type", "x", "y", "vx", "vy", "omega", "radius", "angle", "trm")
-DISCS = ("id", "disc", "x", "y", "radius", "angle", "type")
-CONTACTS = ("id1", "id2", "disc1", "disc2", "x", "y", "fn", "ft", "fx", "fy", "nx", "ny", "overlap", "sliding")
+GRAINS = ("id", "x", "y", "radius", "angle", "wall", "lower", "lid")  # columns that are needed
+DISCS = ("id", "disc", "x", "y", "radius")
+CONTACTS = ("id1", "id2", "x", "y", "fn")
 
 _FRAME = re.compile(rb"^ITEM: TIMESTEP\r?\n", re.MULTILINE)
 _LAST_OF_HEAD = (b"ITEM: ATOMS", b"ITEM: ENTRIES")
 _LONGEST_HEAD = 4096  # bytes
 _ENDLESS = 1 << 62
+_REFERENCE = re.compile(r"[cfv]_([^\[]+)(?:\[(\d+)\])?")
 
 
 @dataclass(frozen=True)
@@ -32,7 +34,10 @@ class _Head:
 
 
 class Dump:
-    """A dump with the given columns: by name for `dump custom`, by position for `dump local`.
+    """A dump, of which the given columns are read, by their names.
+
+    LAMMPS 29Sep2021 gives a column no name but that of what it is taken from: v_angle is the variable angle, c_discs[3]
+    the third of the names in the file discs.columns, which the deck writes beside the dump.
 
     After an interruption some frames are written again: the last frame of a step counts. A last frame that is not
     whole is what an engine that was stopped leaves behind, and is left out; anywhere else it is an error.
@@ -41,6 +46,8 @@ class Dump:
     def __init__(self, path: Path, columns: tuple[str, ...]) -> None:
         self.path = path
         self.columns = columns
+        self._names_file = path.with_suffix(COLUMNS)
+        self._given = self._names_file.read_text(encoding="utf-8").split() if self._names_file.exists() else []
         self._blocks = self._read_index()
 
     @property
@@ -114,14 +121,21 @@ class Dump:
             raise ShearboxError(f"{self.path}, line {line}: a whole number is expected, not {short(text)}") from error
 
     def _order(self, head: _Head) -> list[int]:
-        if all(name in head.names for name in self.columns):
-            return [head.names.index(name) for name in self.columns]
-        data = [i for i, name in enumerate(head.names) if name != "index"]
-        if len(data) == len(self.columns):
-            return data
-        raise ShearboxError(
-            f"{self.path}: columns {' '.join(self.columns)} are expected, there are {' '.join(head.names)}"
-        )
+        names = [self._name(word) for word in head.names]
+        nameless = [name for name in names if name.endswith("]")]
+        hint = f"; {self._names_file.name} could say what {nameless[0]} is, but does not" if nameless else ""
+        require(names, self.columns, self.path, hint)
+        return [names.index(name) for name in self.columns]
+
+    def _name(self, word: str) -> str:
+        """What a column is called, or the word that stands for it if nothing gives it a name."""
+        reference = _REFERENCE.fullmatch(word)
+        if not reference:
+            return word
+        name, number = reference.groups()
+        if number is None:
+            return name
+        return dict(enumerate(self._given, start=1)).get(int(number), word)
 
     def _table(self, body: list[str], head: _Head, offset: int) -> np.ndarray:
         """(rows, columns) numbers; the exact line of a damage is only looked for when there is one."""

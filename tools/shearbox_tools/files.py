@@ -8,12 +8,36 @@ from typing import Any
 
 from .errors import ShearboxError
 
-PACKED = "packed"
+# what the tools write into the folder of a run
+RECORD = "run.json"
+LOCK = ".lock"
+TIMINGS = "timings.json"
+SUMMARY = "summary.json"
+PAGE = "report.html"
+CURVE = "curve.csv"  # in the folder of a stress
+
+# what the decks read and write; the head of each deck says so
+PACKED = "packed"  # folder of the packing
+PACKED_TABLE = "packed.csv"
+PACKED_RESTART = "packed.restart"
+CONSOLIDATED_TABLE = "consolidated.csv"
+SHEAR_TABLE = "shear.dat"
+SHEAR_DONE = "shear.done"
+SHEAR_RESTARTS = ("shear.restart.a", "shear.restart.b")
+GRAINS_DUMP = "grains.dump"
+DISCS_DUMP = "discs.dump"
+CONTACTS_DUMP = "contacts.dump"
+COLUMNS = ".columns"  # ending of the file beside a dump that names its columns
 
 
 def stress_folder(folder: Path, sigma: float) -> Path:
     """Where consolidation and shear at sigma (kPa) leave their files."""
     return folder / f"{sigma:g}"
+
+
+def log_file(folder: Path, deck: str) -> Path:
+    """The engine's log of a deck's run."""
+    return folder / f"{deck}.log"
 
 
 def write_text(path: Path, text: str) -> None:

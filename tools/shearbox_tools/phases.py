@@ -5,12 +5,15 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from .files import PACKED, stress_folder
-from .models import INPUT
+from .errors import InputError
+from .files import CONSOLIDATED_TABLE, PACKED, PACKED_RESTART, PACKED_TABLE, SHEAR_DONE, SHEAR_TABLE
+from .files import log_file, stress_folder
+from .models import INPUT, read_variables
+from .readers import last_value
 from .request import Request
 
-BYTES_PER_FRAME_AND_DISC = 300  # of the three dumps together
-FRAMES = 101
+DECKS = PACK, CONSOLIDATE, SHEAR = "pack", "consolidate", "shear"
+BYTES_PER_FRAME_AND_DISC = 400  # of the three dumps together; the walls' share is in it
 
 
 @dataclass(frozen=True)
@@ -31,12 +34,12 @@ class Phase:
     @property
     def deck(self) -> Path:
         """The input file of the engine."""
-        return INPUT / f"{self.name}.in"
+        return deck(self.name)
 
     @property
     def log(self) -> Path:
         """The engine's log."""
-        return self.folder / f"{self.name}.log"
+        return log_file(self.folder, self.name)
 
     @property
     def screen(self) -> Path:
@@ -56,48 +59,55 @@ class Phase:
             return False
 
     def displacement(self) -> float:
-        """Shear displacement (mm) reached so far, from the last whole line of shear.dat; 0 when there is none."""
-        try:
-            with (self.folder / "shear.dat").open("rb") as stream:
-                size = stream.seek(0, os.SEEK_END)
-                stream.seek(max(0, size - 1000))
-                lines = stream.read().split(b"\n")[:-1]
-            return float(lines[-1].split()[1])
-        except (OSError, IndexError, ValueError):
-            return 0.0
+        """Shear displacement (mm) reached so far, from the last whole row of shear.dat; 0 when there is none."""
+        return last_value(self.folder / SHEAR_TABLE, "displacement_mm") or 0.0
+
+
+def deck(name: str) -> Path:
+    """The input file of that name."""
+    return INPUT / f"{name}.in"
 
 
 def packing(folder: Path, request: Request) -> Phase:
     """The phase that all stresses share."""
-    return Phase("pack", folder / PACKED, _common(request), "packed.csv")
+    return Phase(PACK, folder / PACKED, _common(request, folder / PACKED), PACKED_TABLE)
 
 
 def shearing(folder: Path, request: Request, sigma: float) -> list[Phase]:
     """Consolidation and shear at one stress (kPa)."""
     place = stress_folder(folder, sigma)
-    common = {**_common(request), "sigma": f"{sigma:g}"}
-    packed = os.path.relpath(folder / PACKED / "packed.restart", place)  # no blank, whatever the folder's name
+    common = {**_common(request, place), "sigma": f"{sigma:g}"}
+    packed = os.path.relpath(folder / PACKED / PACKED_RESTART, place)  # no blank, whatever the folder's name
     shear = {"speed": f"{request.speed:g}", "travel": f"{request.travel:g}"}
     return [
-        Phase("consolidate", place, {**common, "packed": packed}, "consolidated.csv", sigma),
-        Phase("shear", place, {**common, **shear}, "shear.done", sigma),
+        Phase(CONSOLIDATE, place, {**common, "packed": packed}, CONSOLIDATED_TABLE, sigma),
+        Phase(SHEAR, place, {**common, **shear}, SHEAR_DONE, sigma),
     ]
 
 
 def disk_need(request: Request, folder: Path) -> int:
     """Bytes that the phases not yet done will write, roughly."""
-    model = request.model
-    walls = 6 * model.width / model.dmin + 4 * model.half_height / model.dmin
-    discs = model.ngrains * (3 if model.shape == "triple" else 1) + walls
+    frames = 1 + int(read_variables(deck(SHEAR))["frames"])
     left = [s for s in request.stresses if not all(phase.done for phase in shearing(folder, request, s))]
-    return int(len(left) * discs * BYTES_PER_FRAME_AND_DISC * FRAMES)
+    return int(len(left) * request.model.ngrains * request.model.discs * BYTES_PER_FRAME_AND_DISC * frames)
 
 
-def _common(request: Request) -> dict[str, str]:
+def _common(request: Request, place: Path) -> dict[str, str]:
     return {
         "model": request.model.name,
+        "models": _models_from(place, request.model.path),
         "seed": str(request.seed),
         "law": request.law,
         "dt": request.dt,
         "stiffness": f"{request.stiffness:g}",
     }
+
+
+def _models_from(place: Path, model: Path) -> str:
+    """The folder of a model as decks can include it from there: LAMMPS takes no blanks, but from there may be none."""
+    folder = str(model.parent.resolve())
+    if " " in folder:
+        folder = os.path.relpath(folder, place.resolve())
+    if " " in folder + model.name:
+        raise InputError(f"model {model}: LAMMPS cannot include a file with a blank in its name or that of its folder")
+    return folder

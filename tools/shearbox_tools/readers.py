@@ -1,45 +1,82 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Reading the tables that the decks write; a damaged file is named together with the line that is wrong."""
 
+import os
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
 from .errors import ShearboxError
 
-SHEAR_COLUMNS = (
+NEEDED = (
     "step",
     "displacement_mm",
     "tau_kPa",
     "sigma_kPa",
     "lid_mm",
-    "tau_upper_kPa",
     "trm",
-    "kinetic_J",
     "dangerous",
     "work_J",
     "residual_J",
-)
+)  # columns of shear.dat that the report is made of; all that there are go into its curves
 
 Columns = dict[str, np.ndarray]
 
 
 def read_shear(path: Path) -> Columns:
-    """Block averages over the shear phase, in order of the steps.
+    """Block averages over the shear phase, in order of the steps, by the names that the header gives.
 
-    After an interruption some steps are written again: the last row of a step counts. A last line without its end
-    is what an engine that was stopped leaves behind, and is left out.
+    After an interruption there is a second header, and some steps are written again: the last row of a step counts.
+    A last line without its end is what an engine that was stopped leaves behind, and is left out.
     """
+    names: list[str] = []
     rows: dict[int, list[float]] = {}
     for number, line in enumerate(_whole_lines(path), start=1):
-        if not line.strip() or line.startswith("#"):
-            continue
-        row = parse_numbers(line, len(SHEAR_COLUMNS), path, number)
-        rows[int(row[0])] = row
+        if line.startswith("#"):
+            names = _header(line, names, path, number)
+        elif line.strip():
+            if not names:
+                raise ShearboxError(f"{path}, line {number}: a header '# step ...' is expected, not {short(line)}")
+            row = parse_numbers(line, len(names), path, number)
+            rows[int(row[names.index("step")])] = row
     if not rows:
         raise ShearboxError(f"{path}: there are no rows of data in it")
     table = np.array([rows[step] for step in sorted(rows)])
-    return dict(zip(SHEAR_COLUMNS, table.T))
+    return dict(zip(names, table.T))
+
+
+def _header(line: str, before: list[str], path: Path, number: int) -> list[str]:
+    """The names in a header line, which must be the same wherever it is repeated."""
+    names = line.lstrip("#").split()
+    if before and names != before:
+        raise ShearboxError(f"{path}, line {number}: the header is no longer '{' '.join(before)}': {short(line)}")
+    require(names, NEEDED, path)
+    return names
+
+
+def require(names: Sequence[str], needed: Sequence[str], path: Path, hint: str = "") -> None:
+    """Refuse a file that lacks columns, or names one twice."""
+    missing = [name for name in needed if name not in names]
+    if missing:
+        raise ShearboxError(f"{path}: there is no column {', '.join(missing)}; the columns are {' '.join(names)}{hint}")
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise ShearboxError(f"{path}: there are several columns {', '.join(twice)}")
+
+
+def last_value(path: Path, column: str) -> float | None:
+    """The value of a column of shear.dat in its last whole row, without reading the others; None when there is none."""
+    try:
+        with path.open("rb") as stream:
+            names = stream.readline().decode(errors="replace").lstrip("#").split()
+            size = stream.seek(0, os.SEEK_END)
+            stream.seek(max(0, size - 1000))
+            lines = stream.read().split(b"\n")[:-1]
+        row = next(line.split() for line in reversed(lines) if not line.startswith(b"#"))
+        return float(row[names.index(column)])
+    except (OSError, StopIteration, IndexError, ValueError):
+        return None
 
 
 def read_row(path: Path) -> dict[str, float]:

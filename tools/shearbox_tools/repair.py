@@ -6,17 +6,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 from .dumps import last_whole_byte
-
-APPENDED_TABLES = ("shear.dat",)
-APPENDED_DUMPS = ("grains.dump", "discs.dump", "contacts.dump")
-RESTARTS = ("shear.restart.a", "shear.restart.b")
+from .files import CONTACTS_DUMP, DISCS_DUMP, GRAINS_DUMP, SHEAR_RESTARTS, SHEAR_TABLE
 
 
 def repair(folder: Path) -> None:
     """Cut each file that a continued phase appends to at the end of its last whole row or frame."""
-    for name in APPENDED_TABLES:
-        _cut(folder / name, _last_line_end)
-    for name in APPENDED_DUMPS:
+    _cut(folder / SHEAR_TABLE, _last_line_end)
+    for name in (GRAINS_DUMP, DISCS_DUMP, CONTACTS_DUMP):
         _cut(folder / name, last_whole_byte)
     _drop_lone_restart(folder)
 
@@ -34,6 +30,6 @@ def _last_line_end(path: Path) -> int:
 
 def _drop_lone_restart(folder: Path) -> None:
     """Of two restart files the older one is whole; a single one may have been cut off while it was written."""
-    found = [folder / name for name in RESTARTS if (folder / name).exists()]
+    found = [folder / name for name in SHEAR_RESTARTS if (folder / name).exists()]
     if len(found) == 1:
         found[0].unlink()

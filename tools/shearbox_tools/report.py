@@ -12,15 +12,13 @@ from .curves import draw_curves
 from .display import duration
 from .drawing import draw_specimen
 from .errors import ShearboxError
-from .files import write_json, write_text
-from .models import INPUT, read_comments
-from .readers import SHEAR_COLUMNS
+from .files import CURVE, PAGE, SUMMARY, write_json, write_text
+from .models import PARAMETERS, read_comments
 from .results import Results, Shear, read_results
 from .specimen import Film
 from .summary import phase_logs, summarise
 
 TEMPLATES = Path(__file__).parent / "templates"
-CURVE = (*SHEAR_COLUMNS[1:], "step")
 
 
 def report(folder: Path) -> Path:
@@ -34,12 +32,12 @@ def report(folder: Path) -> Path:
     pictures = _pictures(results)
     summary = summarise(results)
     for shear in results.shears:
-        write_text(shear.folder / "curve.csv", _curve(shear))
-    write_json(folder / "summary.json", summary)
-    page = folder / "report.html"
+        write_text(shear.folder / CURVE, _curve(shear))
+    write_json(folder / SUMMARY, summary)
+    page = folder / PAGE
     write_text(page, _page(results, summary, pictures))
     if results.problems:
-        raise ShearboxError(f"{page} is written, but files are damaged:\n" + "\n".join(results.problems))
+        raise ShearboxError(f"{page} is written, but not all files can be read:\n" + "\n".join(results.problems))
     return page
 
 
@@ -51,14 +49,16 @@ def _pictures(results: Results) -> dict[str, str]:
             film = Film(shear.folder, shear.data["step"], shear.data["displacement_mm"])
             pictures[f"specimen {shear.sigma:g}"] = draw_specimen(film, shear.peak.position)
         except ShearboxError as error:
-            results.problems.append(str(error))
+            if str(error) not in results.problems:  # the search for lost grains may have met it before
+                results.problems.append(str(error))
     return pictures
 
 
 def _curve(shear: Shear) -> str:
     """The table of a shear phase with its fitted curves and dilatancy rate, as CSV."""
     s = shear.data["displacement_mm"]
-    columns = {name: shear.data[name] for name in CURVE}
+    columns = {name: column for name, column in shear.data.items() if name != "step"}
+    columns["step"] = shear.data["step"]
     columns["tau_fit_kPa"] = shear.tau.series(s)
     columns["lid_fit_mm"] = shear.lid.series(s)
     columns["dilatancy_rate"] = shear.lid.series.deriv()(s)
@@ -83,15 +83,15 @@ def _page(results: Results, summary: dict[str, Any], pictures: dict[str, str]) -
     return environment.get_template("report.html.j2").render(
         summary=summary, shears=results.shears, line=results.line, pictures=pictures, logs=phase_logs(results),
         consolidations=results.consolidations,
-        comments=_comments(summary["model"]),
+        comments=_comments(results.model_file),
     )  # fmt: skip
 
 
-def _comments(model: str) -> dict[str, str]:
+def _comments(model: Path) -> dict[str, str]:
     """What the decks say about their variables; the page goes without when they are not there."""
     try:
-        of_model = read_comments(INPUT / "models" / f"{model}.in")
-        return {**read_comments(INPUT / "parameters.in"), **{f"model {k}": text for k, text in of_model.items()}}
+        of_model = read_comments(model)
+        return {**read_comments(PARAMETERS), **{f"model {k}": text for k, text in of_model.items()}}
     except ShearboxError:
         return {}
 

@@ -8,11 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from .errors import InputError, ShearboxError
-from .files import write_json
-from .models import Model
-
-FILE = "run.json"
-LAWS = ("direct", "incremental")
+from .files import RECORD, write_json
+from .models import PARAMETERS, Model, read_variables
+from .presets import LAWS
 
 
 @dataclass(frozen=True)
@@ -74,13 +72,15 @@ def _stress_problems(stresses: tuple[float, ...]) -> list[str]:
 def _shear_problems(request: Request) -> list[str]:
     problems = []
     width = request.model.width * 1000
+    share = float(read_variables(PARAMETERS)["flanges"])
     if not 0.001 <= request.speed <= 1000:
         hint = f"; {request.speed:g} m/s would be {request.speed * 1000:g}" if 1e-6 <= request.speed < 0.001 else ""
         problems.append(f"--speed {request.speed:g}: 0.001 to 1000 mm/s are expected{hint}")
-    if not 0.1 <= request.travel <= width / 4:
+    if not 0.1 <= request.travel <= share * width:
         hint = f"; {request.travel:g} m would be {request.travel * 1000:g}" if 1e-4 <= request.travel < 0.1 else ""
         problems.append(
-            f"--travel {request.travel:g}: 0.1 to {width / 4:g} mm, a quarter of the box's width, are expected{hint}"
+            f"--travel {request.travel:g}: 0.1 to {share * width:g} mm, {share:g} of the box's width, "
+            f"are expected{hint}"
         )
     return problems
 
@@ -100,7 +100,7 @@ def _dt_problems(dt: str) -> list[str]:
 def open_folder(folder: Path, request: Request, parameters: dict[str, str]) -> None:
     """Make the folder of this request or take up an earlier one; refuse a folder of another request."""
     asked = request.identity(parameters)
-    path = folder / FILE
+    path = folder / RECORD
     stresses = set(request.stresses)
     if path.exists():
         known = read_record(folder)
@@ -111,23 +111,24 @@ def open_folder(folder: Path, request: Request, parameters: dict[str, str]) -> N
     elif folder.exists() and not folder.is_dir():
         raise InputError(f"--out {folder}: this is a file, a folder is expected")
     elif folder.is_dir() and any(folder.iterdir()):
-        raise InputError(f"--out {folder}: this folder holds something else than a run (there is no {FILE} in it)")
+        raise InputError(f"--out {folder}: this folder holds something else than a run (there is no {RECORD} in it)")
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"--out {folder}: {error.strerror}") from error
-    write_json(path, {"identity": asked, "stresses": sorted(stresses)})
+    where = str(request.model.path.resolve())
+    write_json(path, {"identity": asked, "stresses": sorted(stresses), "model_file": where})
 
 
 def read_record(folder: Path) -> dict[str, Any]:
-    """`identity` and `stresses` of the run in a folder."""
-    path = folder / FILE
+    """`identity`, `stresses` and `model_file` of the run in a folder; the first two are always there."""
+    path = folder / RECORD
     try:
         record = json.loads(path.read_text(encoding="utf-8"))
         _ = record["identity"]["model"], record["stresses"][0]
         return record
     except FileNotFoundError as error:
-        raise ShearboxError(f"{folder} holds no run: there is no {FILE} in it") from error
+        raise ShearboxError(f"{folder} holds no run: there is no {RECORD} in it") from error
     except OSError as error:
         raise ShearboxError(f"{path}: {error.strerror}") from error
     except json.JSONDecodeError as error:

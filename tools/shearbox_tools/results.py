@@ -10,7 +10,7 @@ import numpy as np
 
 from .errors import ShearboxError
 from .features import Verdict, dilates, peak_at_steepest, proportional
-from .files import PACKED, stress_folder
+from .files import CONSOLIDATED_TABLE, PACKED, PACKED_TABLE, SHEAR_DONE, SHEAR_TABLE, stress_folder
 from .peak import Peak, find_peak
 from .polynomial import FEWEST_ROWS, Fit, fit_curve
 from .readers import Columns, read_row, read_shear
@@ -70,6 +70,7 @@ class Results:
 
     folder: Path
     identity: dict[str, Any]
+    model_file: Path  # where the model was; it may be gone
     stresses: list[float]  # asked for, kPa
     packing: dict[str, float] | None
     consolidations: dict[float, dict[str, float]]
@@ -105,9 +106,9 @@ def read_results(folder: Path) -> Results:
     notes: list[str] = []
     consolidations: dict[float, dict[str, float]] = {}
     shears = []
-    packing = _optional(folder / PACKED / "packed.csv", problems)
+    packing = _optional(folder / PACKED / PACKED_TABLE, problems)
     for sigma in sorted(record["stresses"]):
-        row = _optional(stress_folder(folder, sigma) / "consolidated.csv", problems)
+        row = _optional(stress_folder(folder, sigma) / CONSOLIDATED_TABLE, problems)
         if row is not None:
             consolidations[sigma] = row
         shear = _read_shear(folder, sigma, record["identity"], problems, notes)
@@ -120,14 +121,16 @@ def read_results(folder: Path) -> Results:
                 notes.append(
                     f"{sigma:g} kPa: τ has no peak within the travel; its greatest value, at {where}, is taken"
                 )
-    return Results(folder, record["identity"], record["stresses"], packing, consolidations, shears, problems, notes)
+    identity, stresses = record["identity"], record["stresses"]
+    model_file = Path(record.get("model_file", ""))
+    return Results(folder, identity, model_file, stresses, packing, consolidations, shears, problems, notes)
 
 
 def _read_shear(
     folder: Path, sigma: float, identity: dict[str, Any], problems: list[str], notes: list[str]
 ) -> Shear | None:
     place = stress_folder(folder, sigma)
-    path = place / "shear.dat"
+    path = place / SHEAR_TABLE
     if not path.exists():
         notes.append(f"{sigma:g} kPa has not been sheared yet")
         return None
@@ -142,7 +145,7 @@ def _read_shear(
     tau = fit_curve(data["displacement_mm"], data["tau_kPa"])
     lid = fit_curve(data["displacement_mm"], data["lid_mm"], through_origin=True)
     lost = _lost(place, identity, problems)
-    return Shear(sigma, place, data, (place / "shear.done").exists(), tau, lid, find_peak(tau), lost)
+    return Shear(sigma, place, data, (place / SHEAR_DONE).exists(), tau, lid, find_peak(tau), lost)
 
 
 def _lost(place: Path, identity: dict[str, Any], problems: list[str]) -> int | None:

@@ -11,8 +11,8 @@ from .campaign import Campaign, locked
 from .display import make_display
 from .engine import PROGRAM, Engine, free_bytes
 from .errors import InputError, ShearboxError
-from .models import INPUT, all_models, find_model, read_variables
-from .phases import disk_need, shearing
+from .models import INPUT, PARAMETERS, all_models, find_model, read_variables
+from .phases import DECKS, deck, disk_need, shearing
 from .request import Request, check, open_folder
 
 SPARE_BYTES = 100_000_000
@@ -35,7 +35,7 @@ def run(options: argparse.Namespace) -> None:
     console = Console()
     check(request)
     _check_machine(min(options.jobs, len(request.stresses)), engine, console)
-    parameters = {k: v for k, v in read_variables(INPUT / "parameters.in").items() if k not in GIVEN}
+    parameters = {k: v for k, v in read_variables(PARAMETERS).items() if k not in GIVEN}
     folder: Path = options.out
     _check_disk(folder, request)
     open_folder(folder, request, parameters)
@@ -71,9 +71,7 @@ def _check_machine(jobs: int, engine: Engine, console: Console) -> None:
         if not 1 <= value <= 256:
             raise InputError(f"{name} {value}: 1 to 256 are expected")
     engine.check()
-    missing = [
-        f"{name}.in" for name in ("parameters", "pack", "consolidate", "shear") if not (INPUT / f"{name}.in").is_file()
-    ]
+    missing = [path.name for path in (PARAMETERS, *map(deck, DECKS)) if not path.is_file()]
     if missing:
         raise InputError(f"{INPUT} lacks {', '.join(missing)}")
     cores = len(os.sched_getaffinity(0))

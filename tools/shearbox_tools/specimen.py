@@ -7,9 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from .dumps import CONTACTS, DISCS, GRAINS, Dump
+from .files import CONTACTS_DUMP, DISCS_DUMP, GRAINS_DUMP
 from .readers import Columns
-
-GRAIN, WALL = 1, 2  # atom types of the decks
 
 
 @dataclass(frozen=True)
@@ -24,7 +23,7 @@ class Moment:
     @property
     def walls(self) -> np.ndarray:
         """(discs,) whether a disc is of a wall."""
-        return self.discs["type"] == WALL
+        return np.isin(self.discs["id"], self.grains["id"][self.grains["wall"] == 1])
 
     def rotation_since(self, first: "Moment") -> np.ndarray:
         """(discs,) angle (rad) that the grain of each disc has turned since another moment."""
@@ -45,9 +44,9 @@ class Film:
     """The dumps of one shear phase; displacements (mm) of the frames come from the table of the phase."""
 
     def __init__(self, folder: Path, steps: np.ndarray, displacements: np.ndarray) -> None:
-        self._grains = Dump(folder / "grains.dump", GRAINS)
-        self._discs = Dump(folder / "discs.dump", DISCS)
-        self._contacts = Dump(folder / "contacts.dump", CONTACTS)
+        self._grains = Dump(folder / GRAINS_DUMP, GRAINS)
+        self._discs = Dump(folder / DISCS_DUMP, DISCS)
+        self._contacts = Dump(folder / CONTACTS_DUMP, CONTACTS)
         first = self._discs.nearest(0)
         # rows of the table are averages over the interval that ends at their step: on average half of it ago
         self._steps = np.concatenate([[first], steps - np.diff(steps, prepend=first) / 2])
@@ -75,16 +74,14 @@ class Film:
 def count_lost(folder: Path, total: int, width: float, half_height: float) -> int:
     """Grains that are gone, or have their centre outside the box by more than their radius, in the last frame.
 
-    width and half_height in m: the inside of the upper half is 0 < x < width, and that of the lower half is the same
-    moved by the shear displacement, which the floor tells.
+    width and half_height in m: the inside of the box is 0 < x < width, from y = 0 to the lid, and has moved below
+    half_height as far as the discs of the lower half have.
     """
-    dump = Dump(folder / "grains.dump", GRAINS)
-    grains = dump.frame(dump.steps[-1])
-    x, y, radius, walls = grains["x"], grains["y"], grains["radius"], grains["type"] == WALL
-    shift = x[walls & (y < 0)].mean() - width / 2
-    lid = y[walls & (y > half_height + 3 * radius[walls].max()) & (x > 0) & (x < width)]
-    left = np.where(y > half_height, 0, shift)
-    inside = (x > left - radius) & (x < left + width + radius) & (y > -radius)
-    if len(lid):
-        inside &= y < lid.min() + radius
-    return total - int(np.sum(inside & ~walls))
+    dump = Dump(folder / GRAINS_DUMP, GRAINS)
+    before, grains = dump.frame(dump.steps[0]), dump.frame(dump.steps[-1])
+    x, y, radius = grains["x"], grains["y"], grains["radius"]
+    moved = x[grains["lower"] == 1].mean() - before["x"][before["lower"] == 1].mean()
+    top = np.min((y - radius)[grains["lid"] == 1])
+    left = np.where(y > half_height, 0, moved)
+    inside = (x > left - radius) & (x < left + width + radius) & (y > -radius) & (y < top + radius)
+    return total - int(np.sum(inside & (grains["wall"] == 0)))

@@ -10,8 +10,9 @@ import numpy as np
 from . import __version__
 from .campaign import read_timings
 from .features import Verdict, steepest_dilatancy
-from .files import PACKED
+from .files import PACKED, log_file
 from .logs import Log, read_logs
+from .phases import CONSOLIDATE, PACK, SHEAR
 from .results import Results, Shear
 from .strength import COVERAGE, Line
 
@@ -117,10 +118,10 @@ def _time_step(shear: Shear, speed: float) -> float | None:
 
 def phase_logs(results: Results) -> dict[str, Log]:
     """The logs of all phases by their label."""
-    logs = {"pack": read_logs(results.folder / PACKED / "pack.log")}
+    logs = {PACK: read_logs(log_file(results.folder / PACKED, PACK))}
     for shear in results.shears:
-        for name in ("consolidate", "shear"):
-            logs[f"{name} {shear.sigma:g} kPa"] = read_logs(shear.folder / f"{name}.log")
+        for name in (CONSOLIDATE, SHEAR):
+            logs[f"{name} {shear.sigma:g} kPa"] = read_logs(log_file(shear.folder, name))
     return logs
 
 

@@ -29,7 +29,7 @@ def _row(model: Model) -> tuple[str, ...]:
         model.name,
         f"{model.width * 100:g} × {2 * model.half_height * 100:g}",
         f"{low:g}" if low == high else f"{low:g}–{high:g}",
-        "3" if model.shape == "triple" else "1",
+        str(model.discs),
         str(model.ngrains),
         "equal" if low == high else f"n(d) ∝ d^{model.power:g}" if model.power else "uniform",
     )

@@ -41,9 +41,13 @@ FixCDEMShape::FixCDEMShape(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
   int iarg = 3;
   while (iarg < narg) {
     const std::string key = arg[iarg++];
-    if (key != "type" && key != "density" && key != "orient")
-      error->all(FLERR, "Fix cdem/shape: unknown keyword {}; allowed: type, density, orient", key);
-    if (key == "type") {
+    if (key != "folder" && key != "type" && key != "density" && key != "orient")
+      error->all(FLERR, "Fix cdem/shape: unknown keyword {}; allowed: folder, type, density, orient", key);
+    if (key == "folder") {
+      if (iarg == narg)
+        error->all(FLERR, "Fix cdem/shape: folder needs a name");
+      folder = arg[iarg++];
+    } else if (key == "type") {
       iarg = read_template(narg, arg, iarg);
     } else if (key == "density") {
       density = number(narg, arg, iarg++, key);
@@ -59,6 +63,11 @@ FixCDEMShape::FixCDEMShape(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
     if (!shapes[type])
       error->all(FLERR, "Fix cdem/shape: atom type {} has no template", type);
   restart_global = 1;
+  array_flag = 1;
+  size_array_rows = atom->ntypes;
+  size_array_cols = 3;
+  global_freq = 1;
+  extarray = 0;
   if (density > 0)
     set_mass();
 }
@@ -96,8 +105,9 @@ int FixCDEMShape::read_template(int narg, char **arg, int iarg) {
   } else if (word == "file") {
     if (iarg == narg)
       error->all(FLERR, "Fix cdem/shape: type {}: file needs a name", type);
-    source += std::string(" ") + arg[iarg];
-    discs = read_file(arg[iarg++]);
+    const std::string name = std::filesystem::path(folder) / arg[iarg++];
+    source += " " + name;
+    discs = read_file(name);
   } else {
     error->all(FLERR, "Fix cdem/shape: type {}: unknown template {}; allowed: single, triple, discs, file", type, word);
   }
@@ -153,6 +163,15 @@ void FixCDEMShape::init() {
   if (seed > 0 && !oriented)
     orient();
   oriented = 1;
+}
+
+double FixCDEMShape::compute_array(int row, int column) {
+  const cdem::GrainShape &shape = *shapes[row + 1];
+  double largest = 0;
+  for (const Member &d : shape.discs())
+    largest = std::max(largest, d.r);
+  const double outputs[] = {static_cast<double>(shape.discs().size()), 1 / largest, shape.area() / M_PI};
+  return outputs[column];
 }
 
 void FixCDEMShape::set_mass() const {

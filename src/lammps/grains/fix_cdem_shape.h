@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// fix ID group cdem/shape type T TEMPLATE [type T TEMPLATE ...] [density RHO] [orient SEED]
+// fix ID group cdem/shape [folder DIR] type T TEMPLATE [type T TEMPLATE ...] [density RHO] [orient SEED]
 //
 // Grains of several rigid discs (CDEM). One atom is one grain; its radius is the circumscribed one, to which the
 // template of its type is scaled, so one template serves a distribution of sizes.
@@ -9,12 +9,22 @@
 //             discs N x y r ...    N discs, at most 1000, in any unit, about any origin; they may overlap and must be
 //                                  connected
 //             file NAME            the same from a file: a line "x y r" a disc, # starts a comment
+//   folder    where the files of the templates after it are, if not in the current folder
 //   density   mass per area (kg/m^2): sets the mass of the group's grains at the start of each run, from the area of
 //             the union of the discs
 //   orient    turns the group's grains to random angles, once; the angle depends on SEED and the atom id alone
 //
 // Every atom type needs a template. Mass centre, area and inertia are those of the union of the discs, see
 // core/grain_shape.h. One fix of this style may exist. Without it, all atoms are single discs.
+//
+// Global array: one row per atom type, with columns
+//
+//   1  number of discs of a grain
+//   2  circumscribed diameter over the diameter of the largest disc
+//   3  area over that of the circumscribed circle
+//
+// For example:  fix shape all cdem/shape type 1 triple type 2 single
+//               variable size equal f_shape[1][2]     # 1+2/sqrt(3)
 #pragma once
 
 #include "core/grain_shape.h"
@@ -39,6 +49,7 @@ public:
 
   int setmask() override;
   void init() override;
+  double compute_array(int, int) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
 
@@ -51,6 +62,7 @@ private:
   void set_mass() const;
   void orient() const;
 
+  std::string folder;                                  // of template files
   std::vector<std::optional<cdem::GrainShape>> shapes; // by type
   double density = 0;                                  // 0: leave the masses alone
   int seed = 0;                                        // 0: leave the angles alone

@@ -29,48 +29,41 @@ const std::vector<ComputeCDEMContacts::Field> ComputeCDEMContacts::all_fields = 
 };
 
 ComputeCDEMContacts::ComputeCDEMContacts(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg) {
-  for (int k = 3; k < narg; k++) {
-    check(arg[k]);
-    names.push_back(arg[k]);
-  }
-  if (names.empty())
-    for (const Field &f : all_fields)
-      names.push_back(f.name);
+  std::vector<Field> known = all_fields;
+  for (const Field &f : fields_of_laws())
+    known.push_back(f);
+  fields = narg == 3
+               ? all_fields
+               : Shearbox::choose_fields(lmp, fmt::format("Compute cdem/contacts {}", id), narg - 3, arg + 3, known);
   local_flag = 1;
-  size_local_cols = static_cast<int>(names.size());
+  size_local_cols = static_cast<int>(fields.size());
   size_local_rows = 0;
 }
 
-// Which law is in use is known only when the run begins.
-void ComputeCDEMContacts::check(const std::string &name) const {
-  std::string allowed;
-  for (const Field &f : all_fields)
-    allowed += " " + f.name;
-  for (const std::string &number : cdem::all_remembered())
-    allowed += " " + number;
-  if ((allowed + " ").find(" " + name + " ") == std::string::npos)
-    error->all(FLERR, "Compute cdem/contacts {}: unknown field {}; allowed:{}", id, name, allowed);
+// Which law is in use, and so where its numbers are, is known only when a run begins.
+std::vector<ComputeCDEMContacts::Field> ComputeCDEMContacts::fields_of_laws() const {
+  std::vector<Field> all;
+  for (const std::string &name : cdem::all_remembered())
+    all.push_back({name, [this, name](const Contact &c) { return c.remembered[place_of(name)]; }});
+  return all;
 }
 
-ComputeCDEMContacts::Field ComputeCDEMContacts::field(const std::string &name) const {
-  for (const Field &f : all_fields)
-    if (f.name == name)
-      return f;
+std::size_t ComputeCDEMContacts::place_of(const std::string &number) const {
   const auto &remembered = pair->contacts.law.remembered();
   for (std::size_t m = 0; m < remembered.size(); m++)
-    if (remembered[m].name == name)
-      return {name, [m](const Contact &c) { return c.remembered[m]; }};
-  error->all(FLERR, "Compute cdem/contacts {}: contacts of the law in use have no {}", id, name);
-  return all_fields.front(); // not reached
+    if (remembered[m].name == number)
+      return m;
+  error->all(FLERR, "Compute cdem/contacts {}: contacts of the law in use have no {}", id, number);
+  return 0; // not reached
 }
 
 void ComputeCDEMContacts::init() {
   pair = dynamic_cast<PairCDEM *>(force->pair);
   if (!pair)
     error->all(FLERR, "Compute cdem/contacts {} needs pair_style cdem", id);
-  fields.clear();
-  for (const std::string &name : names)
-    fields.push_back(field(name));
+  for (const std::string &number : cdem::all_remembered())
+    if (std::any_of(fields.begin(), fields.end(), [&](const Field &f) { return f.name == number; }))
+      place_of(number); // or an error
 }
 
 // Ids of the group's atoms that this rank knows, ghosts included, in ascending order.

@@ -28,10 +28,10 @@
 
 #include "contacts/pair_cdem.h"
 #include "host/local_array.h"
+#include "output/named_fields.h"
 
 #include "compute.h"
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,17 +47,13 @@ public:
 
 private:
   using Contact = ContactReport::Contact;
-  struct Field {
-    std::string name;
-    std::function<double(const Contact &)> value;
-  };
+  using Field = Shearbox::Field<Contact>;
   static const std::vector<Field> all_fields; // of any law
 
-  void check(const std::string &name) const;
-  Field field(const std::string &name) const;
+  std::vector<Field> fields_of_laws() const;
+  std::size_t place_of(const std::string &number) const;
   std::vector<tagint> members() const;
 
-  std::vector<std::string> names; // of the columns
   std::vector<Field> fields;
   const PairCDEM *pair = nullptr;
   Shearbox::LocalArray contacts;

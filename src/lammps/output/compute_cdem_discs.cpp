@@ -11,11 +11,20 @@
 
 using namespace LAMMPS_NS;
 
+const std::vector<ComputeCDEMDiscs::Field> ComputeCDEMDiscs::all_fields = {
+    {"id", [](const Disc &d) { return static_cast<double>(d.id); }},
+    {"disc", [](const Disc &d) { return static_cast<double>(d.number); }},
+    {"x", [](const Disc &d) { return d.x; }},
+    {"y", [](const Disc &d) { return d.y; }},
+    {"radius", [](const Disc &d) { return d.radius; }},
+    {"angle", [](const Disc &d) { return d.angle; }},
+    {"type", [](const Disc &d) { return static_cast<double>(d.type); }},
+};
+
 ComputeCDEMDiscs::ComputeCDEMDiscs(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg) {
-  if (narg != 3)
-    error->all(FLERR, "Compute cdem/discs {}: unknown argument {}; it takes none", id, arg[3]);
+  fields = Shearbox::choose_fields(lmp, fmt::format("Compute cdem/discs {}", id), narg - 3, arg + 3, all_fields);
   local_flag = 1;
-  size_local_cols = 7;
+  size_local_cols = static_cast<int>(fields.size());
   size_local_rows = 0;
 }
 
@@ -32,13 +41,10 @@ void ComputeCDEMDiscs::compute_local() {
   for (const auto &[i, number, x, y, radius] : pair->report.discs()) {
     if (!(atom->mask[i] & groupbit))
       continue;
-    discs.add(static_cast<double>(atom->tag[i]));
-    discs.add(number);
-    discs.add(x);
-    discs.add(y);
-    discs.add(radius);
-    discs.add(grains->angle(i));
-    discs.add(atom->type[i]);
+    const double angle = grains->angle(i);
+    const Disc disc{atom->tag[i], number, x, y, radius, angle, atom->type[i]};
+    for (const Field &f : fields)
+      discs.add(f.value(disc));
   }
   array_local = discs.rows(size_local_cols);
   size_local_rows = discs.size();

@@ -1,25 +1,28 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// compute ID group cdem/discs
+// compute ID group cdem/discs [field ...]
 //
 // The discs of the grains and walls of the group, to draw them.
 //
-// Local array: one row per disc, with columns
+// Local array: one row per disc, one column per field, in the order given; all of them if none is given:
 //
-//   1 id      of the grain
-//   2 disc    number of the disc within its grain, from 0
-//   3, 4 x y  centre of the disc (m)
-//   5 radius  of the disc (m)
-//   6 angle   by which the grain has turned so far (rad, counterclockwise; not reduced to a full turn)
-//   7 type    of the grain
+//   id      of the grain
+//   disc    number of the disc within its grain, from 0
+//   x y     centre of the disc (m)
+//   radius  of the disc (m)
+//   angle   by which the grain has turned so far (rad, counterclockwise; not reduced to a full turn)
+//   type    of the grain
 //
-// For example:  compute d all cdem/discs
+// For example:  compute d all cdem/discs id x y radius
 //               dump d all local 1000 discs.dump c_d[*]
 //               dump_modify d format float %.9g
 #pragma once
 
 #include "host/local_array.h"
+#include "output/named_fields.h"
 
 #include "compute.h"
+
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -35,6 +38,16 @@ public:
   double memory_usage() override;
 
 private:
+  struct Disc {
+    tagint id;
+    int number;
+    double x, y, radius, angle;
+    int type;
+  };
+  using Field = Shearbox::Field<Disc>;
+  static const std::vector<Field> all_fields;
+
+  std::vector<Field> fields;
   const PairCDEM *pair = nullptr;
   const FixCDEMGrains *grains = nullptr;
   Shearbox::LocalArray discs;

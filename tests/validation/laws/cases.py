@@ -21,13 +21,15 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 INPUT = ROOT / "input"
 sys.path.insert(0, str(ROOT / "tests" / "decks"))
+sys.path.insert(0, str(ROOT / "tools"))
 import engine  # noqa: E402
 from engine import Disc, Frame, run  # noqa: E402
 from scenes import circling, oblique_pairs  # noqa: E402
+from shearbox_tools.presets import LAWS  # noqa: E402
+from shearbox_tools.readers import read_shear  # noqa: E402
 
 engine.TIMEOUT = 3600  # s
 
-LAWS = ("direct", "incremental")
 KN = 1e8  # N/m
 D = 4e-3  # m, diameter
 STRESS = 200e3  # Pa, of all lids
@@ -299,9 +301,9 @@ def shear_measure(job: Job, folder: Path) -> Values:
     given = DECKS | {"law": job.law}
     dt = share_of_auto(made, job.dt)
     run(deck("shear", INPUT), folder, sigma=STRESS / 1000, speed=job.options["speed"], frames=1, **given, **dt)
-    columns = np.loadtxt(folder / "shear.dat").T
+    table = read_shear(folder / "shear.dat")
     names = ("displacement_mm", "tau_kPa", "sigma_kPa", "lid_mm", "tau_upper_kPa", "trm", "kinetic_J")
-    values = {name: column.tolist() for name, column in zip(names, columns[1:8], strict=True)}
+    values = {name: table[name].tolist() for name in names}
     return values | look(folder / "sheared.restart", folder / "look", given)
 
 
