@@ -119,7 +119,7 @@ CASES: dict[str, tuple[str, str, str]] = {
     "wall with an infinite ramp": ("ramp 1e-4", "ramp 1e999", r"Fix cdem/move floor: ramp inf"),
     "wall with stop zero": ("stop 0.008", "stop 0", r"Fix cdem/move floor: stop 0"),
     "wall with an unknown keyword": ("dir x", "along x", r"Fix cdem/move floor: unknown keyword along"),
-    "wall with a speed that is a word": ("speed 0.002", "speed fast", r"'fast'"),
+    "wall with a speed that is a word": ("speed 0.002", "speed fast", r"speed is fast, must be a number"),
     "two fixes on one wall": ("floor floor", "floor lid", r"atoms of group lid are also moved by fix cdem/(lid lid|move floor)"),
     # cdem/create
     "unknown shape to create": ("fill 8", "heap 8", r"cdem/create: heap"),

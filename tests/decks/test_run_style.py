@@ -105,9 +105,9 @@ def test_a_fix_that_acts_in_every_step_is_named(tmp_path: Path) -> None:
         "no-integrate": ("run 0", "needs a fix cdem/integrate"),
         "argument": (MOVE + "run_style verlet/cdem fast\nrun 0", "Run style verlet/cdem: unknown argument fast"),
         "gravity-one": ("fix move grains cdem/integrate gravity 1", "Fix cdem/integrate: gravity has no value"),
-        "gravity-word": ("fix move grains cdem/integrate gravity 0 down", "Expected floating point"),
+        "gravity-word": ("fix move grains cdem/integrate gravity 0 down", "gravity is down, must be a number"),
         "drag-zero": ("fix move grains cdem/integrate drag 0", "Fix cdem/integrate: drag 0: the time must be positive"),
-        "drag-word": ("fix move grains cdem/integrate drag much", "Expected floating point"),
+        "drag-word": ("fix move grains cdem/integrate drag much", "drag is much, must be a number"),
         "modify": (MOVE + "fix_modify move weight 1", "Illegal fix_modify command"),
     }.values(),
 )

@@ -18,51 +18,6 @@ using namespace LAMMPS_NS;
 
 CDEMCreate::CDEMCreate(LAMMPS *lmp) : Command(lmp) {}
 
-// The words of the command, read one after the other; each reader names what it misses.
-class CDEMCreate::Arguments {
-public:
-  Arguments(LAMMPS *lmp, int narg, char **arg) : lmp(lmp), words(arg, arg + narg) {}
-
-  std::string word(const char *what) {
-    if (next == words.size())
-      lmp->error->all(FLERR, "cdem/create: {} is missing", what);
-    return words[next++];
-  }
-
-  void keyword(const char *name) {
-    const std::string w = word(name);
-    if (w != name)
-      lmp->error->all(FLERR, "cdem/create: {} where {} is expected", w, name);
-  }
-
-  double number(const char *what) { return utils::numeric(FLERR, word(what).c_str(), false, lmp); }
-
-  double positive(const char *what) {
-    const double x = number(what);
-    if (!(x > 0 && std::isfinite(x)))
-      lmp->error->all(FLERR, "cdem/create: {} {}: must be positive", what, x);
-    return x;
-  }
-
-  int count(const char *what) {
-    const int n = utils::inumeric(FLERR, word(what).c_str(), false, lmp);
-    if (n < 1)
-      lmp->error->all(FLERR, "cdem/create: {} {}: must be 1 or more", what, n);
-    return n;
-  }
-
-  void end() const {
-    if (next < words.size())
-      lmp->error->all(FLERR, "cdem/create: unexpected {}", words[next]);
-  }
-
-  LAMMPS *const lmp;
-
-private:
-  const std::vector<std::string> words;
-  std::size_t next = 0;
-};
-
 void CDEMCreate::command(int narg, char **arg) {
   if (!domain->box_exist)
     error->all(FLERR, "cdem/create: there is no simulation box yet");
@@ -73,15 +28,15 @@ void CDEMCreate::command(int narg, char **arg) {
   if (!atom->tag_enable)
     error->all(FLERR, "cdem/create needs atom ids");
 
-  Arguments arguments(lmp, narg, arg);
-  type = arguments.count("type");
+  Words words(lmp, "cdem/create", narg, arg);
+  type = words.count("type");
   if (type > atom->ntypes)
     error->all(FLERR, "cdem/create: type {}: the box has {} atom types", type, atom->ntypes);
-  const std::string shape = arguments.word("row or fill");
+  const std::string shape = words.word("row or fill");
   if (shape != "row" && shape != "fill")
     error->all(FLERR, "cdem/create: {}: must be row or fill", shape);
-  const std::vector<Disc> discs = shape == "row" ? row(arguments) : fill(arguments);
-  arguments.end();
+  const std::vector<Disc> discs = shape == "row" ? row(words) : fill(words);
+  words.end();
   for (const Disc &disc : discs)
     check(disc);
   create(discs);
@@ -89,13 +44,13 @@ void CDEMCreate::command(int narg, char **arg) {
     utils::logmesg(lmp, "Created {} discs of type {}\n", discs.size(), type);
 }
 
-std::vector<CDEMCreate::Disc> CDEMCreate::row(Arguments &arguments) {
-  const double x1 = arguments.number("X1"), y1 = arguments.number("Y1");
-  const double x2 = arguments.number("X2"), y2 = arguments.number("Y2");
-  const int n = arguments.count("number of discs");
-  arguments.keyword("diameter");
-  const double diameter = arguments.positive("diameter");
-  read_density(arguments);
+std::vector<CDEMCreate::Disc> CDEMCreate::row(Words &words) {
+  const double x1 = words.number("X1"), y1 = words.number("Y1");
+  const double x2 = words.number("X2"), y2 = words.number("Y2");
+  const int n = words.count("number of discs");
+  words.keyword("diameter");
+  const double diameter = words.positive("diameter");
+  read_density(words);
   std::vector<Disc> discs;
   for (int i = 0; i < n; i++) {
     const double share = n > 1 ? double(i) / (n - 1) : 0;
@@ -104,27 +59,27 @@ std::vector<CDEMCreate::Disc> CDEMCreate::row(Arguments &arguments) {
   return discs;
 }
 
-std::vector<CDEMCreate::Disc> CDEMCreate::fill(Arguments &arguments) {
-  const int n = arguments.count("number of grains");
-  arguments.keyword("region");
-  const double xlo = arguments.number("XLO"), xhi = arguments.number("XHI");
-  const double ylo = arguments.number("YLO"), yhi = arguments.number("YHI");
+std::vector<CDEMCreate::Disc> CDEMCreate::fill(Words &words) {
+  const int n = words.count("number of grains");
+  words.keyword("region");
+  const double xlo = words.number("XLO"), xhi = words.number("XHI");
+  const double ylo = words.number("YLO"), yhi = words.number("YHI");
   if (!(xlo < xhi && ylo < yhi))
     error->all(FLERR, "cdem/create: region {} {} {} {}: must be XLO < XHI, YLO < YHI", xlo, xhi, ylo, yhi);
-  arguments.keyword("diameter");
-  const double smallest = arguments.positive("DMIN"), largest = arguments.positive("DMAX");
+  words.keyword("diameter");
+  const double smallest = words.positive("DMIN"), largest = words.positive("DMAX");
   if (smallest > largest)
     error->all(FLERR, "cdem/create: diameter {} {}: must be DMIN <= DMAX", smallest, largest);
   if (largest > xhi - xlo)
     error->all(FLERR, "cdem/create: grains of diameter {} do not fit in the width {} of the region", largest,
                xhi - xlo);
-  arguments.keyword("power");
-  const double power = arguments.number("power");
+  words.keyword("power");
+  const double power = words.number("power");
   if (!std::isfinite(power))
     error->all(FLERR, "cdem/create: power {}: must be a number", power);
-  read_density(arguments);
-  arguments.keyword("seed");
-  cdem::Random random(arguments.count("seed"));
+  read_density(words);
+  words.keyword("seed");
+  cdem::Random random(words.count("seed"));
 
   const auto diameters = cdem::power_law_diameters(n, smallest, largest, power, random);
   double needed;
@@ -139,9 +94,9 @@ std::vector<CDEMCreate::Disc> CDEMCreate::fill(Arguments &arguments) {
   return discs;
 }
 
-void CDEMCreate::read_density(Arguments &arguments) {
-  arguments.keyword("density");
-  density = arguments.positive("density");
+void CDEMCreate::read_density(Words &words) {
+  words.keyword("density");
+  density = words.positive("density");
 }
 
 void CDEMCreate::check(const Disc &disc) const {

@@ -14,6 +14,8 @@
 // ranks.
 #pragma once
 
+#include "host/deck_words.h"
+
 #include "command.h"
 
 #include <string>
@@ -31,11 +33,11 @@ private:
     double x, y, diameter;
   };
 
-  class Arguments;
+  using Words = Shearbox::DeckWords;
 
-  std::vector<Disc> row(Arguments &);
-  std::vector<Disc> fill(Arguments &);
-  void read_density(Arguments &);
+  std::vector<Disc> row(Words &);
+  std::vector<Disc> fill(Words &);
+  void read_density(Words &);
   void check(const Disc &) const;
   bool is_mine(const Disc &) const;
   void create(const std::vector<Disc> &);

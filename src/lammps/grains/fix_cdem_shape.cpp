@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "grains/fix_cdem_shape.h"
 
+#include "fmt/format.h"
 #include "grains/fix_cdem_grains.h"
 #include "host/find_fix.h"
 #include "host/packed_state.h"
@@ -38,25 +39,19 @@ const cdem::GrainShape &FixCDEMShape::shape(LAMMPS *lmp, int type) {
 FixCDEMShape::FixCDEMShape(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), shapes(atom->ntypes + 1) {
   if (find(lmp))
     error->all(FLERR, "Fix cdem/shape {}: there is one already, {}", id, find(lmp)->id);
-  int iarg = 3;
-  while (iarg < narg) {
-    const std::string key = arg[iarg++];
-    if (key != "folder" && key != "type" && key != "density" && key != "orient")
-      error->all(FLERR, "Fix cdem/shape: unknown keyword {}; allowed: folder, type, density, orient", key);
+  Shearbox::DeckWords words(lmp, "Fix cdem/shape", narg, arg, 3);
+  while (!words.done()) {
+    const std::string key = words.word("keyword");
     if (key == "folder") {
-      if (iarg == narg)
-        error->all(FLERR, "Fix cdem/shape: folder needs a name");
-      folder = arg[iarg++];
+      folder = words.word("folder: its name");
     } else if (key == "type") {
-      iarg = read_template(narg, arg, iarg);
+      read_template(words);
     } else if (key == "density") {
-      density = number(narg, arg, iarg++, key);
-      if (!(density > 0 && std::isfinite(density)))
-        error->all(FLERR, "Fix cdem/shape: density {} must be positive", arg[iarg - 1]);
+      density = words.positive("density");
+    } else if (key == "orient") {
+      seed = words.count("orient");
     } else {
-      seed = integer(narg, arg, iarg++, key);
-      if (seed <= 0)
-        error->all(FLERR, "Fix cdem/shape: orient {}: the seed must be positive", seed);
+      error->all(FLERR, "Fix cdem/shape: unknown keyword {}; allowed: folder, type, density, orient", key);
     }
   }
   for (int type = 1; type <= atom->ntypes; type++)
@@ -72,40 +67,24 @@ FixCDEMShape::FixCDEMShape(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
     set_mass();
 }
 
-double FixCDEMShape::number(int narg, char **arg, int iarg, const std::string &what) const {
-  const std::string word = iarg < narg ? arg[iarg] : "nothing";
-  if (!utils::is_double(word))
-    error->all(FLERR, "Fix cdem/shape: {} is {}, must be a number", what, word);
-  return std::strtod(word.c_str(), nullptr); // out of range gives inf, which the callers refuse
-}
-
-int FixCDEMShape::integer(int narg, char **arg, int iarg, const std::string &what) const {
-  const std::string word = iarg < narg ? arg[iarg] : "nothing";
-  if (!utils::is_integer(word) || word.size() > 9)
-    error->all(FLERR, "Fix cdem/shape: {} is {}, must be an integer of at most 9 digits", what, word);
-  return std::stoi(word);
-}
-
-// Reads "T TEMPLATE" from arg[iarg] on and returns where the next keyword is.
-int FixCDEMShape::read_template(int narg, char **arg, int iarg) {
-  const int type = integer(narg, arg, iarg++, "type");
+// "T TEMPLATE"
+void FixCDEMShape::read_template(Shearbox::DeckWords &words) {
+  const int type = words.integer("type");
   if (type < 1 || type > atom->ntypes)
     error->all(FLERR, "Fix cdem/shape: type {} must be between 1 and {}", type, atom->ntypes);
   if (shapes[type])
     error->all(FLERR, "Fix cdem/shape: type {} has two templates", type);
 
-  const std::string word = iarg < narg ? arg[iarg++] : "nothing";
+  const std::string word = words.choice();
   std::string source = word;
   std::vector<Member> discs;
   if (word == "single" || word == "triple") {
     shapes[type] = word == "single" ? cdem::GrainShape::single() : cdem::GrainShape::triple();
-    return iarg;
+    return;
   } else if (word == "discs") {
-    iarg = read_discs(narg, arg, iarg, discs);
+    discs = read_discs(words);
   } else if (word == "file") {
-    if (iarg == narg)
-      error->all(FLERR, "Fix cdem/shape: type {}: file needs a name", type);
-    const std::string name = std::filesystem::path(folder) / arg[iarg++];
+    const std::string name = std::filesystem::path(folder) / words.word(fmt::format("type {}: file: its name", type));
     source += " " + name;
     discs = read_file(name);
   } else {
@@ -116,20 +95,20 @@ int FixCDEMShape::read_template(int narg, char **arg, int iarg) {
   } catch (const std::invalid_argument &bad) {
     error->all(FLERR, "Fix cdem/shape: type {}, {}: {}", type, source, bad.what());
   }
-  return iarg;
 }
 
-int FixCDEMShape::read_discs(int narg, char **arg, int iarg, std::vector<Member> &discs) const {
-  const int n = integer(narg, arg, iarg++, "discs");
-  if (n < 1 || n > (narg - iarg) / 3)
+std::vector<Member> FixCDEMShape::read_discs(Shearbox::DeckWords &words) const {
+  const int n = words.integer("discs");
+  if (n < 1 || n > words.left() / 3)
     error->all(FLERR, "Fix cdem/shape: discs {}: must be a positive number of discs, each with x y r; {} values follow",
-               n, narg - iarg);
-  for (int k = 1; k <= n; k++, iarg += 3) {
+               n, words.left());
+  std::vector<Member> discs;
+  for (int k = 1; k <= n; k++) {
     const std::string disc = " of disc " + std::to_string(k);
-    discs.push_back({number(narg, arg, iarg, "x" + disc), number(narg, arg, iarg + 1, "y" + disc),
-                     number(narg, arg, iarg + 2, "r" + disc)});
+    const double x = words.number("x" + disc), y = words.number("y" + disc), r = words.number("r" + disc);
+    discs.push_back({x, y, r});
   }
-  return iarg;
+  return discs;
 }
 
 std::vector<Member> FixCDEMShape::read_file(const std::string &name) const {

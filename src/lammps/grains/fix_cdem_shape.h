@@ -28,6 +28,7 @@
 #pragma once
 
 #include "core/grain_shape.h"
+#include "host/deck_words.h"
 #include "host/glides.h"
 
 #include "fix.h"
@@ -54,10 +55,8 @@ public:
   void restart(char *) override;
 
 private:
-  double number(int narg, char **arg, int iarg, const std::string &what) const;
-  int integer(int narg, char **arg, int iarg, const std::string &what) const;
-  int read_template(int narg, char **arg, int iarg);
-  int read_discs(int narg, char **arg, int iarg, std::vector<cdem::GrainShape::Member> &) const;
+  void read_template(Shearbox::DeckWords &);
+  std::vector<cdem::GrainShape::Member> read_discs(Shearbox::DeckWords &) const;
   std::vector<cdem::GrainShape::Member> read_file(const std::string &name) const;
   void set_mass() const;
   void orient() const;

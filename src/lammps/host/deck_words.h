@@ -7,7 +7,9 @@
 #include "utils.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <string>
+#include <utility>
 
 namespace Shearbox {
 
@@ -19,7 +21,7 @@ public:
 
   bool done() const { return next >= narg; }
   int read() const { return next; } // how many words are behind
-  void skip(int n) { next += n; }
+  int left() const { return narg - next; }
 
   std::string word(const std::string &what) {
     if (done())
@@ -44,10 +46,12 @@ public:
   }
 
   bool number_follows() const { return !done() && LAMMPS_NS::utils::is_double(arg[next]); }
+  // Infinite beyond the range of numbers, for the caller to refuse.
   double number(const std::string &what) {
-    if (done())
-      lmp->error->all(FLERR, "{}: {} has no value", who, what);
-    return LAMMPS_NS::utils::numeric(FLERR, arg[next++], false, lmp);
+    const std::string w = value(what);
+    if (!LAMMPS_NS::utils::is_double(w))
+      lmp->error->all(FLERR, "{}: {} is {}, must be a number", who, what, w);
+    return std::strtod(w.c_str(), nullptr);
   }
   double finite(const std::string &what) {
     const double x = number(what);
@@ -61,8 +65,14 @@ public:
       lmp->error->all(FLERR, "{}: {} {}: must be positive", who, what, x);
     return x;
   }
+  int integer(const std::string &what) {
+    const std::string w = value(what);
+    if (!LAMMPS_NS::utils::is_integer(w) || w.size() > 9)
+      lmp->error->all(FLERR, "{}: {} is {}, must be an integer of at most 9 digits", who, what, w);
+    return std::stoi(w);
+  }
   int count(const std::string &what) {
-    const int n = LAMMPS_NS::utils::inumeric(FLERR, word(what).c_str(), false, lmp);
+    const int n = integer(what);
     if (n < 1)
       lmp->error->all(FLERR, "{}: {} {}: must be 1 or more", who, what, n);
     return n;
@@ -76,6 +86,12 @@ public:
   LAMMPS_NS::LAMMPS *const lmp;
 
 private:
+  std::string value(const std::string &what) {
+    if (done())
+      lmp->error->all(FLERR, "{}: {} has no value", who, what);
+    return arg[next++];
+  }
+
   const std::string who;
   const int narg;
   char **const arg;

@@ -29,23 +29,20 @@ constexpr int VERSION = 1; // of what restart files keep
 
 FixCDEMLid::FixCDEMLid(LAMMPS *lmp, int narg, char **arg) : WallBody(lmp, narg, arg) {
   bool has_stress = false;
-  for (int iarg = 3; iarg < narg;) {
-    const std::string keyword = arg[iarg++];
+  Shearbox::DeckWords words = words_of(narg, arg);
+  while (!words.done()) {
+    const std::string keyword = words.word("keyword");
     if (keyword == "stress") {
       has_stress = true;
-      if (iarg < narg && utils::strmatch(arg[iarg], "^v_"))
-        stress_variable = arg[iarg++] + 2;
-      else
-        stress = number(narg, arg, iarg, "stress");
+      read_stress(words);
     } else if (keyword == "width")
-      width = number(narg, arg, iarg, "width");
+      width = words.number("width");
     else if (keyword == "thickness")
-      thickness = number(narg, arg, iarg, "thickness");
+      thickness = words.number("thickness");
     else if (keyword == "vmax") {
-      if (iarg < narg && strcmp(arg[iarg], "auto") == 0) {
+      if (words.take("auto"))
         given_cap = 0;
-        iarg++;
-      } else if (!((given_cap = number(narg, arg, iarg, "vmax")) > 0 && std::isfinite(given_cap)))
+      else if (!((given_cap = words.number("vmax")) > 0 && std::isfinite(given_cap)))
         error->all(FLERR, "Fix cdem/lid {}: vmax {}: must be positive (m/s), or auto", id, given_cap);
     } else
       error->all(FLERR, "Fix cdem/lid {}: unknown keyword {}; allowed: stress, width, thickness, vmax", id, keyword);
@@ -59,6 +56,18 @@ FixCDEMLid::FixCDEMLid(LAMMPS *lmp, int narg, char **arg) : WallBody(lmp, narg, 
   if (!(thickness > 0 && std::isfinite(thickness)))
     error->all(FLERR, "Fix cdem/lid {}: thickness {}: must be given and positive (m)", id, thickness);
   size_vector = NOUTPUTS;
+}
+
+void FixCDEMLid::read_stress(Shearbox::DeckWords &words) {
+  if (!words.number_follows() && words.left() > 0) {
+    const std::string variable = words.word("stress");
+    if (utils::strmatch(variable, "^v_")) {
+      stress_variable = variable.substr(2);
+      return;
+    }
+    error->all(FLERR, "Fix cdem/lid {}: stress is {}, must be a number (Pa) or v_name", id, variable);
+  }
+  stress = words.number("stress");
 }
 
 void FixCDEMLid::init() {

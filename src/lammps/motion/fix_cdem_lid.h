@@ -46,6 +46,7 @@ private:
     double valid_step; // the step at whose end the acceleration was taken; -1: never
   };
 
+  void read_stress(Shearbox::DeckWords &);
   double group_velocity() const;
   double largest_stiffness() const;
   double lower_face() const;

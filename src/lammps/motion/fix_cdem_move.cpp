@@ -22,21 +22,22 @@ constexpr double RESOLUTION = 0x1p-50; // m, see the header
 
 FixCDEMMove::FixCDEMMove(LAMMPS *lmp, int narg, char **arg) : WallBody(lmp, narg, arg) {
   bool has_speed = false, has_stop = false;
-  for (int iarg = 3; iarg < narg;) {
-    const std::string keyword = arg[iarg++];
+  Shearbox::DeckWords words = words_of(narg, arg);
+  while (!words.done()) {
+    const std::string keyword = words.word("keyword");
     if (keyword == "speed") {
       has_speed = true;
-      speed = number(narg, arg, iarg, "speed");
+      speed = words.number("speed");
     } else if (keyword == "dir") {
-      const std::string dir = iarg < narg ? arg[iarg++] : "nothing";
+      const std::string dir = words.choice();
       if (dir != "x" && dir != "y")
         error->all(FLERR, "Fix cdem/move {}: dir {}: must be x or y", id, dir);
       vertical = dir == "y";
     } else if (keyword == "ramp")
-      ramp = number(narg, arg, iarg, "ramp");
+      ramp = words.number("ramp");
     else if (keyword == "stop") {
       has_stop = true;
-      stop = number(narg, arg, iarg, "stop");
+      stop = words.number("stop");
     } else
       error->all(FLERR, "Fix cdem/move {}: unknown keyword {}; allowed: speed, dir, ramp, stop", id, keyword);
   }

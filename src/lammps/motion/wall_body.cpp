@@ -9,9 +9,9 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fmt/format.h"
 #include "group.h"
 #include "modify.h"
-#include "utils.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,10 +32,8 @@ WallBody::WallBody(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) {
 
 int WallBody::setmask() { return FixConst::INITIAL_INTEGRATE | FixConst::PRE_NEIGHBOR | FixConst::FINAL_INTEGRATE; }
 
-double WallBody::number(int narg, char **arg, int &iarg, const char *keyword) const {
-  if (iarg >= narg)
-    error->all(FLERR, "Fix {} {}: {} has no value", style, id, keyword);
-  return utils::numeric(FLERR, arg[iarg++], false, lmp);
+Shearbox::DeckWords WallBody::words_of(int narg, char **arg) const {
+  return Shearbox::DeckWords(lmp, fmt::format("Fix {} {}", style, id), narg, arg, 3);
 }
 
 void WallBody::init() {

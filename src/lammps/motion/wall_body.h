@@ -43,8 +43,8 @@ protected:
 
   bool in_group(int i) const;
 
-  // Next argument as a number; error if there is none or it is not one.
-  double number(int narg, char **arg, int &iarg, const char *keyword) const;
+  // The words of the fix after its style.
+  Shearbox::DeckWords words_of(int narg, char **arg) const;
 
   // Sums over the discs, with the same bits for any number of ranks. The force is that of the contacts and of whatever
   // else writes f.
