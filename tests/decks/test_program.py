@@ -12,7 +12,7 @@ from engine import ENVIRONMENT, PROGRAM
 
 STYLES = {
     "pair": {"cdem"},
-    "fix": {"cdem/audit", "cdem/history", "cdem/integrate", "cdem/lid", "cdem/move", "cdem/shape", "cdem/trm"},
+    "fix": {"cdem/audit", "cdem/grains", "cdem/history", "cdem/integrate", "cdem/lid", "cdem/move", "cdem/shape", "cdem/trm"},
     "compute": {"cdem/contacts", "cdem/discs", "cdem/energy", "cdem/limit", "cdem/trm"},
     "command": {"cdem/create"},
     "run": {"verlet/cdem"},

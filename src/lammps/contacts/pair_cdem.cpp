@@ -25,6 +25,13 @@
 
 using namespace LAMMPS_NS;
 
+PairCDEM *PairCDEM::needed_by(const std::string &who, LAMMPS *lmp) {
+  auto *const pair = dynamic_cast<PairCDEM *>(lmp->force->pair);
+  if (!pair)
+    lmp->error->all(FLERR, "{} needs pair_style cdem", who);
+  return pair;
+}
+
 PairCDEM::PairCDEM(LAMMPS *lmp) : Pair(lmp), contacts(lmp, this), report(lmp, contacts), law(lmp) {
   restartinfo = 1;
   single_enable = 1;

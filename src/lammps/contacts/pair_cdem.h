@@ -29,6 +29,7 @@
 
 #include "pair.h"
 
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -38,6 +39,9 @@ class FixCDEMHistory;
 
 class PairCDEM : public Pair {
 public:
+  // The pair style, or an error that `who` needs it.
+  static PairCDEM *needed_by(const std::string &who, LAMMPS *);
+
   explicit PairCDEM(LAMMPS *);
   ~PairCDEM() override;
 

@@ -47,7 +47,7 @@ struct Packing {
 } // namespace
 
 double ContactLimit::find(double guess, double enough) {
-  const auto *const pair = static_cast<PairCDEM *>(force->pair);
+  const auto *const pair = PairCDEM::needed_by("Fix cdem/integrate", lmp);
   weights.resize(atom->nlocal + atom->nghost);
   auto to_ghosts = [this] { Shearbox::forward_comm(lmp, carrier); };
   auto largest = [this](double x) {

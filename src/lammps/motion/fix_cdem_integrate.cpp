@@ -128,8 +128,7 @@ int FixCDEMIntegrate::setmask() {
 }
 
 void FixCDEMIntegrate::init() {
-  if (!dynamic_cast<PairCDEM *>(force->pair))
-    error->all(FLERR, "Fix cdem/integrate needs pair_style cdem");
+  contacts = &PairCDEM::needed_by("Fix cdem/integrate", lmp)->contacts;
   if (FixCDEMGrains::find(lmp) != grains)
     take_grains(); // it was taken away
   refuse_second_integrator();
@@ -141,7 +140,7 @@ void FixCDEMIntegrate::init() {
 
 void FixCDEMIntegrate::reset_dt() {
   grains->weight = step.prediction_weight();
-  static_cast<PairCDEM *>(force->pair)->contacts.renew_constants();
+  contacts->renew_constants();
 }
 
 // Walls that move by themselves check that they hold no grains.

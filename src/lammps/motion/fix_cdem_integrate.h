@@ -51,6 +51,7 @@
 
 namespace LAMMPS_NS {
 
+class DiscPairList;
 class FixCDEMAudit;
 class GrainRows;
 
@@ -100,6 +101,7 @@ private:
   template <class Velocity> void book_drag_at(Velocity);
 
   StepChoice step;
+  DiscPairList *contacts = nullptr;
   FixCDEMGrains *grains = nullptr;
   FixCDEMAudit *audit = nullptr;
   double gravity[2] = {0, 0}, drag = 0; // m/s^2, 1/s

@@ -65,7 +65,7 @@ double StepChoice::prediction_weight() const {
 
 // The smallest value over all grains, each as if surrounded by its like.
 template <class Value> double StepChoice::scene_minimum(Value value) const {
-  const auto *pair = static_cast<PairCDEM *>(force->pair);
+  const auto *const pair = PairCDEM::needed_by("Fix cdem/integrate", lmp);
   const auto *grains = FixCDEMGrains::find(lmp);
   double smallest = INFINITY;
   for (int i = 0; i < atom->nlocal; i++) {

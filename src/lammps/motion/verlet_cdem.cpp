@@ -27,12 +27,9 @@ VerletCDEM::VerletCDEM(LAMMPS *lmp, int narg, char **arg) : Verlet(lmp, narg, ar
 
 void VerletCDEM::init() {
   Verlet::init();
-  auto *const pair = dynamic_cast<PairCDEM *>(force->pair);
   integrate = FixCDEMIntegrate::find(lmp);
   grains = FixCDEMGrains::find(lmp);
-  if (!pair)
-    error->all(FLERR, "Run style verlet/cdem needs pair_style cdem");
-  contacts = &pair->contacts;
+  contacts = &PairCDEM::needed_by("Run style verlet/cdem", lmp)->contacts;
   statistics.clear();
   wall_bodies.clear();
   for (int i = 0; i < modify->nfix; i++) {

@@ -58,9 +58,7 @@ std::size_t ComputeCDEMContacts::place_of(const std::string &number) const {
 }
 
 void ComputeCDEMContacts::init() {
-  pair = dynamic_cast<PairCDEM *>(force->pair);
-  if (!pair)
-    error->all(FLERR, "Compute cdem/contacts {} needs pair_style cdem", id);
+  pair = PairCDEM::needed_by(fmt::format("Compute cdem/contacts {}", id), lmp);
   for (const std::string &number : cdem::all_remembered())
     if (std::any_of(fields.begin(), fields.end(), [&](const Field &f) { return f.name == number; }))
       place_of(number); // or an error

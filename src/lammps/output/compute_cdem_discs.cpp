@@ -29,9 +29,7 @@ ComputeCDEMDiscs::ComputeCDEMDiscs(LAMMPS *lmp, int narg, char **arg) : Compute(
 }
 
 void ComputeCDEMDiscs::init() {
-  pair = dynamic_cast<PairCDEM *>(force->pair);
-  if (!pair)
-    error->all(FLERR, "Compute cdem/discs {} needs pair_style cdem", id);
+  pair = PairCDEM::needed_by(fmt::format("Compute cdem/discs {}", id), lmp);
   grains = FixCDEMGrains::find(lmp); // the pair style has seen that there is one
 }
 

@@ -47,9 +47,7 @@ ComputeCDEMEnergy::~ComputeCDEMEnergy() {
 }
 
 void ComputeCDEMEnergy::init() {
-  pair = dynamic_cast<PairCDEM *>(force->pair);
-  if (!pair)
-    error->all(FLERR, "Compute cdem/energy {} needs pair_style cdem", id);
+  pair = PairCDEM::needed_by(fmt::format("Compute cdem/energy {}", id), lmp);
   grains = FixCDEMGrains::find(lmp);
 }
 

@@ -18,10 +18,7 @@ ComputeCDEMLimit::ComputeCDEMLimit(LAMMPS *lmp, int narg, char **arg) : Compute(
   scalar_flag = 1;
 }
 
-void ComputeCDEMLimit::init() {
-  if (!dynamic_cast<PairCDEM *>(force->pair))
-    error->all(FLERR, "Compute cdem/limit needs pair_style cdem");
-}
+void ComputeCDEMLimit::init() { PairCDEM::needed_by("Compute cdem/limit", lmp); }
 
 double ComputeCDEMLimit::compute_scalar() {
   invoked_scalar = update->ntimestep;
