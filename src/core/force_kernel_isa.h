@@ -83,7 +83,8 @@ template <int lines> [[gnu::always_inline]] inline const void *prefetch(const vo
 // Root and division of the next pairs are begun before the law is applied to these: see Distance. Flattened, or the
 // compiler leaves parts of some laws as functions, to which vectors are handed over in memory.
 template <class Law, class Books, class T, bool fetches>
-[[gnu::flatten]] void loop(const Disc<double> *discs, const PairColumns &p, const Material &material, int begin, int end, double dt) {
+[[gnu::flatten]] void loop(const Disc<double> *discs, const PairColumns &p, const Material &material, int begin,
+                           int end, double dt) {
   const Material m = material; // a copy: the compiler must assume that what is stored may change it
   const Numbers<Law::MEMORIES, double> memories(p.memories);
   const Numbers<Law::CONSTANTS, const double> constants(p.constants);

@@ -18,8 +18,8 @@
 
 namespace cdem {
 
-// Two, four, eight doubles as the compiler knows them. What works on them is compiled for several instruction sets, and
-// must not be shared between these: it is inlined always.
+// Two, four, eight doubles as the compiler knows them. Functions that take them are compiled once for each instruction
+// set; they are always inlined, so that no copy for one set is ever called by code for another.
 template <int W> struct Raw {
   typedef double type __attribute__((vector_size(W * sizeof(double))));
   typedef long long bits __attribute__((vector_size(W * sizeof(double))));
@@ -35,7 +35,7 @@ template <class R> [[gnu::always_inline]] inline R load_raw(const double *from) 
 }
 template <class R> [[gnu::always_inline]] inline void store_raw(double *to, R r) { std::memcpy(to, &r, sizeof(r)); }
 
-// The compiler makes two of it, with a branch each.
+// Otherwise GCC emits two scalar roots, each with a branch.
 [[gnu::always_inline]] inline Two square_root(Two x) {
 #if defined(__x86_64__)
   return _mm_sqrt_pd(x);
@@ -52,7 +52,7 @@ inline double magnitude(double x) { return std::fabs(x); }
 inline double with_sign_of(double size, double sign) { return std::copysign(size, sign); } // size >= 0
 inline bool any(bool condition) { return condition; }
 
-// A yes or no in the last bit of a number, which changes this by 2e-16 of itself at most.
+// A yes or no kept in the last bit of a number. It changes the number by a factor of at most 1 + 2e-16.
 inline unsigned long long bits(double x) {
   unsigned long long bits;
   std::memcpy(&bits, &x, sizeof(bits));
@@ -122,7 +122,7 @@ template <class Abi> inline Lanes<Abi> fused(Lanes<Abi> a, Lanes<Abi> b, Lanes<A
 #endif
   return a * b + c;
 }
-// a b - c; the compiler doesn't make it of fused() and a change of sign.
+// a b - c; GCC does not make this of fused() and a change of sign.
 template <class Abi> inline Lanes<Abi> fused_minus(Lanes<Abi> a, Lanes<Abi> b, Lanes<Abi> c) {
 #if defined(__AVX512F__)
   if constexpr (Lanes<Abi>::size() == 8)

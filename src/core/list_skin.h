@@ -13,8 +13,9 @@ namespace cdem {
 //
 //   touching + per_metre s + rebuild 2 speed/s
 //
-// times what a pair costs, and this is the s (m) where that is least. A new list is as dear as so many pairs in a step
-// for every disc, and for every pair that touches: measured with 500 discs that fall and with a bed of 1500 in motion.
+// times the cost of a pair, and this is the s (m) where that is least. A rebuild costs as much as A_DISC pairs in a
+// step for every disc, and A_PAIR for every pair that touches: measured with 500 falling discs and a bed of 1500 in
+// motion.
 inline double cheapest_skin(double discs, double touching, double per_metre, double speed) {
   constexpr double A_DISC = 10, A_PAIR = 16;
   if (per_metre == 0)

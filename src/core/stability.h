@@ -45,7 +45,8 @@ struct Mode {
   }
 };
 
-// A grain among its like all around. The inertia is that over m r^2, r its circumscribed radius.
+// A grain surrounded by equal grains, with all contacts of one material. `inertia` is over m r^2, r the circumscribed
+// radius.
 struct AmongItsLike {
   const GrainShape &shape;
   double mass, radius, inertia;

@@ -130,7 +130,7 @@ double DiscPairList::most_moved() const {
   return most;
 }
 
-// Only when a bound of the motion is used up is the motion itself looked at.
+// How far the discs have moved is measured only when the bound on it is used up.
 void DiscPairList::refresh(double moved) {
   constexpr double LEAST = 0.05; // of the skin: with less left it is not worth keeping
   room_left -= moved;
@@ -199,8 +199,9 @@ int DiscPairList::most_pairs() const {
   return most;
 }
 
-// The skin of the list of disc pairs that costs least, see core/list_skin.h. A pair that opens in this step must stay
-// for another one: its forces may have a share left. The bits of the forces don't depend on the skin.
+// The skin of the list of disc pairs that costs least, see core/list_skin.h. A pair that opens in a step must stay in
+// the list for the next one, in which part of its forces may still act. The bits of the forces do not depend on the
+// skin.
 void DiscPairList::choose_skin() {
   constexpr double LEAST = 0.01, SAFETY = 8;
   constexpr int LOOKED_AT = 256; // grains, whose neighbours tell enough
@@ -245,7 +246,7 @@ template <class Visit> void DiscPairList::for_each_candidate(int i, Visit visit)
   }
 }
 
-// Segments are by block, then by material.
+// Segments are in the order of blocks, and within a block in that of materials.
 void DiscPairList::find_pairs() {
   const int types = atom->ntypes + 1;
   std::vector<cdem::Material> by_types;
@@ -376,8 +377,8 @@ void DiscPairList::close_list() {
   move_history_to_grains();
 }
 
-// The rows have moved, and a new list won't know the last forces of the dashpots. Half of them acted in this step; the
-// other half is that of forces which are still to be computed: for now, of a contact without any.
+// The rows have moved, and a new list will not know the dashpots' forces at the beginning of this step. This books the
+// half of them that belongs to this step; the new list books the other half, from the forces at its end.
 void DiscPairList::finish_step_in_books() {
   if (!pairs.has_books())
     return;

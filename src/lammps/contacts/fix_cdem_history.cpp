@@ -92,8 +92,7 @@ void FixCDEMHistory::remember(const std::vector<cdem::Remembered> &declared) {
   names = std::move(now);
 }
 
-// The next rebuild, and the next run, may find other grains, in another order: from here on the history is with the
-// grains.
+// Before grains are moved or numbered anew: from here on the history is with the grains, not in the list.
 void FixCDEMHistory::take_from_list() {
   if (list)
     list->move_history_to_grains();
@@ -112,7 +111,8 @@ void FixCDEMHistory::pre_exchange() {
 
 void FixCDEMHistory::setup_pre_exchange() { agree_on_room(); }
 
-// A grain on its way to a rank at a corner is handed on by another one.
+// A grain that moves to a diagonal neighbour takes two hops, so the buffers of all ranks must be as large as the
+// largest.
 void FixCDEMHistory::agree_on_room() {
   const int mine = maxexchange;
   MPI_Allreduce(&mine, &maxexchange, 1, MPI_INT, MPI_MAX, world);
@@ -196,8 +196,8 @@ void FixCDEMHistory::grow_arrays(int nmax) {
   owner.resize(nmax, NOBODY);
 }
 
-// A fix that comes before this one may move grains to other ranks (balance) or take some away (evaporate) when its own
-// pre_exchange() is called: these are the first words that we hear of it.
+// A fix that comes before this one may move grains to other ranks (balance) or take some away (evaporate) in its own
+// pre_exchange(). Then this call is our first notice.
 void FixCDEMHistory::copy_arrays(int i, int j, int) {
   take_from_list();
   first[j] = first[i];

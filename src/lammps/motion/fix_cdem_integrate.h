@@ -28,10 +28,10 @@
 // has a state from 5000 to 10000 steps before, or of the start of the run, with the history of contacts and the state
 // of fixes: the run can go on from there with a smaller step.
 //
-// A step beyond the limit that is not wild but makes contacts chatter is not noticed that way: grains keep in motion
-// and lie less dense, and nothing else shows. So at the start and every 5000 steps the step is compared with the limit
-// of the contacts that there are, that of compute cdem/limit, and a warning given, once a run. It also finds what the
-// limit of the scene does not know: a large grain among a dozen or more small wall discs.
+// A step that is only a little beyond the limit does not blow up: contacts chatter, grains stay in motion and lie less
+// dense, and nothing else shows. So at the start and every 5000 steps the step is compared with the limit of the
+// present contacts (compute cdem/limit), and a warning is given, once a run. This also finds what the limit of the
+// scene does not know: a large grain among a dozen or more small wall discs.
 //
 // Scalar: stability limit of the scene (s), that of the worst packing, see core/stability.h.
 // Per-atom array: 1, 2 acceleration (m/s^2), 3 angular acceleration (rad/s^2), 4 angle turned so far (rad).

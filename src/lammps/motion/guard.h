@@ -29,9 +29,10 @@ public:
   void begin(double smallest_radius, double step_limit);
   // Whether a grain that moved so far in a step (m), or an unknown distance, is to be looked for.
   bool suspects(double moved) const { return !(moved <= allowed); }
-  // Whether this is a step in which grains are to be looked at, whatever is suspected: what is no number has no speed.
+  // Whether grains are to be looked at in this step whatever their speed: a NaN never compares as too fast.
   bool is_due() const;
-  // Looks at all grains; all ranks together. Ends the run if one is too fast or nowhere.
+  // Looks at all grains; all ranks together. Ends the run if one is too fast or its position, velocity or force is not
+  // a finite number.
   void check();
   // Before LAMMPS deletes what is outside of the box, which is an error unless thermo_modify has it otherwise.
   void check_box();

@@ -103,8 +103,8 @@ void VerletCDEM::run(int n) {
   }
 }
 
-// Whether this step has been made, all but its end; else the next one is Verlet's, which also tallies energy and
-// virial.
+// Makes steps up to the next look. True if that step has been made but for its end; else the next step is to be one of
+// Verlet, which also tallies energy and virial.
 bool VerletCDEM::glide_to(bigint look) {
   ev_set(look);
   const bool tally = eflag || vflag;
@@ -217,11 +217,11 @@ void VerletCDEM::measure_room() {
   MPI_Allreduce(&mine, &room, 1, MPI_DOUBLE, MPI_MIN, world);
 }
 
-// The list is good for the next step as long as the room left in it is more than SAFETY times what the fastest moved in
-// the last one; and it is not worth keeping for LEAST of half the skin. What all have travelled is at most what the
-// fastest has in every step, so only when that bound is used up is the room measured; and from time to time, since it
-// is none if a position is no number. That changes nothing: the list is rebuilt in the same step for any number of
-// ranks, and whatever is written in between.
+// The list is rebuilt when the room left in it is no more than SAFETY times what the fastest grain moved in the last
+// step, or LEAST of half the skin. No grain has travelled further than the sum of what the fastest moved in each step:
+// only when that bound is used up is the room measured. It is measured every 100 steps too, since a position that is
+// not a number moves no bound. When it is measured does not change in which step the list is rebuilt: that is the same
+// for any number of ranks and any output.
 bool VerletCDEM::rebuild_is_due(int steps, const cdem::Fastest &fastest) {
   constexpr double SAFETY = 4, LEAST = 0.05;
   const double mine[] = {fastest.vx2, fastest.vy2, fastest.omega2, reach};

@@ -33,7 +33,7 @@ public:
 
   bool is_audited() const { return audit; }
 
-  // From now on, and until this is null, the discs are moved where they are rows, and the atoms are left as they are.
+  // From now on the rows of the discs are moved instead of the atoms; null: the atoms again.
   void move_rows(GrainRows *);
   // Of the step that was begun last (m/s).
   double speed() const;
