@@ -112,34 +112,57 @@ void PairCDEM::check_setting() const {
                neighbor->skin);
 }
 
+// At every rebuild too, since atoms may come in a run. LAMMPS looks for neighbours as far as the largest radii reach
+// that were known as the run began.
 void PairCDEM::check_atoms() const {
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->radius[i] > 0))
-      error->one(FLERR, "Pair style cdem: atom {} has radius {}, must be positive", atom->tag[i], atom->radius[i]);
+    const double radius = atom->radius[i], largest = largest_radius[atom->type[i]];
+    if (!(radius > 0))
+      error->one(FLERR, "Pair style cdem: atom {} has radius {}, must be positive", atom->tag[i], radius);
     if (!(atom->rmass[i] > 0))
       error->one(FLERR, "Pair style cdem: atom {} has mass {}, must be positive", atom->tag[i], atom->rmass[i]);
     if (atom->x[i][2] != 0)
       error->one(FLERR, "Pair style cdem: atom {} is at z = {}, must be 0: LAMMPS takes distances in space",
                  atom->tag[i], atom->x[i][2]);
+    if (radius > largest)
+      error->one(FLERR,
+                 "Pair style cdem: atom {} of type {} has radius {}, larger than all of its type as the run began, {}: "
+                 "contacts would be missed; let such a grain be there when a run begins",
+                 atom->tag[i], atom->type[i], radius, largest);
   }
 }
 
 void PairCDEM::init_style() {
   grains = FixCDEMGrains::find(lmp);
   check_setting();
+  find_largest_radii();
   check_atoms();
+  check_periods();
   Shearbox::request_half_size_list(lmp, this, instance_me);
   if (!history)
     history = static_cast<FixCDEMHistory *>(modify->add_fix(std::string(FixCDEMHistory::ID) + " all cdem/history"));
   contacts.init(law.table(), law.coefficients, law.instructions, history);
+}
 
+// Of the grains that are there, and of those that fixes pour and deposit will bring.
+void PairCDEM::find_largest_radii() {
   std::vector<double> mine(atom->ntypes + 1, 0.0);
   for (int i = 0; i < atom->nlocal; i++)
     mine[atom->type[i]] = std::max(mine[atom->type[i]], atom->radius[i]);
+  for (int k = 0; k < modify->nfix; k++)
+    for (int type = 1; type <= atom->ntypes; type++) {
+      int asked = type;
+      if (utils::strmatch(modify->fix[k]->style, "^pour") || utils::strmatch(modify->fix[k]->style, "^deposit"))
+        if (const void *const radius = modify->fix[k]->extract("radius", asked))
+          mine[type] = std::max(mine[type], *static_cast<const double *>(radius));
+    }
   largest_radius.resize(mine.size());
   MPI_Allreduce(mine.data(), largest_radius.data(), int(mine.size()), MPI_DOUBLE, MPI_MAX, world);
-  check_periods();
 }
+
+double PairCDEM::atom2cut(int i) { return 2 * atom->radius[i]; }
+
+double PairCDEM::radii2cut(double r1, double r2) { return r1 + r2; }
 
 // Two grains have one history for each pair of their discs, so they may not touch on both sides of a period.
 void PairCDEM::check_periods() const {
@@ -162,8 +185,10 @@ void PairCDEM::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
   GrainRows &rows = contacts.rows;
   const bool rebuilt = neighbor->ago == 0;
-  if (rebuilt)
+  if (rebuilt) {
+    check_atoms();
     rows.map();
+  }
 
   // During a step, v and omega are those of the half step; at setup they are those of the full step.
   rows.fill(0, atom->nlocal, update->setupflag ? 0 : grains->step_rule().forward);

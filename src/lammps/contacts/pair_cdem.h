@@ -49,6 +49,8 @@ public:
   void coeff(int, char **) override;
   void init_style() override;
   double init_one(int, int) override;
+  double atom2cut(int) override;
+  double radii2cut(double, double) override;
   void compute(int, int) override;
   double single(int, int, int, int, double, double, double, double &) override;
   void write_restart(FILE *) override;
@@ -69,6 +71,7 @@ private:
   void check_setting() const;
   void check_atoms() const;
   void check_periods() const;
+  void find_largest_radii();
   void tally();
 
   LawChoice law;

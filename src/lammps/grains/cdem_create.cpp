@@ -108,8 +108,16 @@ void CDEMCreate::check(const Disc &disc) const {
 }
 
 bool CDEMCreate::is_mine(const Disc &disc) const {
-  return disc.x >= domain->sublo[0] && disc.x < domain->subhi[0] && disc.y >= domain->sublo[1] &&
-         disc.y < domain->subhi[1] && 0 >= domain->sublo[2] && 0 < domain->subhi[2];
+  double centre[3] = {disc.x, disc.y, 0};
+  const double *low = domain->sublo, *high = domain->subhi;
+  if (domain->triclinic) {
+    domain->x2lamda(centre, centre);
+    low = domain->sublo_lamda, high = domain->subhi_lamda;
+  }
+  for (int k = 0; k < 3; k++)
+    if (!(centre[k] >= low[k] && centre[k] < high[k]))
+      return false;
+  return true;
 }
 
 // Every rank knows all discs, makes its own, and numbers them as if it had made all.

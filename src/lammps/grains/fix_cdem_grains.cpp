@@ -6,6 +6,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "fmt/format.h"
 #include "memory.h"
 #include "modify.h"
 #include "update.h"
@@ -81,9 +82,31 @@ void FixCDEMGrains::copy_arrays(int i, int j, int) { std::copy_n(state[i], int(N
 
 void FixCDEMGrains::set_arrays(int i) {
   std::fill_n(state[i], int(NCOLUMNS), 0.0);
+  state[i][ANGLE] = UNKNOWN;
   const bool running = update->whichflag != 0; // no setup() follows, and the atom had no step to be accelerated in
   if (!running)
     state[i][AX] = UNKNOWN;
+}
+
+void FixCDEMGrains::write_data_section_size(int, int &rows, int &columns) {
+  rows = atom->nlocal;
+  columns = 2;
+}
+
+void FixCDEMGrains::write_data_section_pack(int, double **buf) {
+  for (int i = 0; i < atom->nlocal; i++) {
+    buf[i][0] = ubuf(atom->tag[i]).d;
+    buf[i][1] = state[i][ANGLE];
+  }
+}
+
+void FixCDEMGrains::write_data_section_keyword(int, FILE *file) {
+  fmt::print(file, "\nAngles of grains, which read_data cannot read: use a restart file\n\n");
+}
+
+void FixCDEMGrains::write_data_section(int, FILE *file, int n, double **buf, int) {
+  for (int i = 0; i < n; i++)
+    fmt::print(file, "{} {:.17g}\n", tagint(ubuf(buf[i][0]).i), buf[i][1]);
 }
 
 int FixCDEMGrains::pack_exchange(int i, double *buf) {

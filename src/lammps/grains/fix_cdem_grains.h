@@ -35,8 +35,13 @@ public:
   bool is_free(int i) const { return atom->mask[i] & mover->groupbit; }
   int group_of_grains() const { return mover->igroup; }
 
+  // Data files get a section with the angles, since LAMMPS reads no file with a section that it does not know: without
+  // the angles, clumps would be read as others.
+  void angles_matter(bool yes) { wd_section = yes; }
+
   // --- of each atom ---
-  double angle(int i) const { return state[i][ANGLE]; } // turned so far, rad
+  // Turned so far, rad; NaN of a grain that has just been made.
+  double angle(int i) const { return state[i][ANGLE]; }
   double &angle(int i) { return state[i][ANGLE]; }
   // At the end of the last step, m/s^2 and rad/s^2: NaN as long as it is not known.
   struct Acceleration {
@@ -79,6 +84,10 @@ public:
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
   void set_arrays(int) override;
+  void write_data_section_size(int, int &, int &) override;
+  void write_data_section_pack(int, double **) override;
+  void write_data_section_keyword(int, FILE *) override;
+  void write_data_section(int, FILE *, int, double **, int) override;
   int pack_exchange(int, double *) override;
   int unpack_exchange(int, double *) override;
   void write_restart(FILE *) override;

@@ -2,12 +2,9 @@
 #include "grains/fix_cdem_shape.h"
 
 #include "fmt/format.h"
-#include "grains/fix_cdem_grains.h"
 #include "host/find_fix.h"
-#include "host/packed_state.h"
 
 #include "atom.h"
-#include "comm.h"
 #include "error.h"
 #include "utils.h"
 
@@ -23,10 +20,6 @@
 
 using namespace LAMMPS_NS;
 using Member = cdem::GrainShape::Member;
-
-namespace {
-constexpr int VERSION = 1; // of what restart files keep
-}
 
 FixCDEMShape *FixCDEMShape::find(LAMMPS *lmp) { return Shearbox::find_fix<FixCDEMShape>(lmp); }
 
@@ -57,15 +50,17 @@ FixCDEMShape::FixCDEMShape(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
   for (int type = 1; type <= atom->ntypes; type++)
     if (!shapes[type])
       error->all(FLERR, "Fix cdem/shape: atom type {} has no template", type);
-  restart_global = 1;
+  create_attribute = 1;
   array_flag = 1;
   size_array_rows = atom->ntypes;
   size_array_cols = 3;
   global_freq = 1;
   extarray = 0;
-  if (density > 0)
-    set_mass();
+  atom->add_callback(Atom::GROW);
+  set_masses();
 }
+
+FixCDEMShape::~FixCDEMShape() { atom->delete_callback(id, Atom::GROW); }
 
 // "T TEMPLATE"
 void FixCDEMShape::read_template(Shearbox::DeckWords &words) {
@@ -136,13 +131,7 @@ std::vector<Member> FixCDEMShape::read_file(const std::string &name) const {
 
 int FixCDEMShape::setmask() { return 0; }
 
-void FixCDEMShape::init() {
-  if (density > 0)
-    set_mass(); // also of grains that were made after this fix
-  if (seed > 0 && !oriented)
-    orient();
-  oriented = 1;
-}
+void FixCDEMShape::init() { set_masses(); }
 
 double FixCDEMShape::compute_array(int row, int column) {
   const cdem::GrainShape &shape = *shapes[row + 1];
@@ -153,28 +142,22 @@ double FixCDEMShape::compute_array(int row, int column) {
   return outputs[column];
 }
 
-void FixCDEMShape::set_mass() const {
+void FixCDEMShape::set_masses() const {
   for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & groupbit)
-      atom->rmass[i] = density * shapes[atom->type[i]]->area() * atom->radius[i] * atom->radius[i];
+    set_mass(i);
 }
 
-void FixCDEMShape::orient() const {
-  FixCDEMGrains *const grains = FixCDEMGrains::find(lmp);
-  if (!grains)
-    error->all(FLERR, "Fix cdem/shape: orient needs a fix cdem/integrate, which holds the angles");
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit))
-      continue;
-    std::seed_seq key{seed, int(atom->tag[i])};
-    std::mt19937_64 random(key);
-    grains->angle(i) = 2 * M_PI * std::ldexp(double(random() >> 11), -53);
-  }
+void FixCDEMShape::set_mass(int i) const {
+  if (density > 0 && (atom->mask[i] & groupbit))
+    atom->rmass[i] = density * shapes[atom->type[i]]->area() * atom->radius[i] * atom->radius[i];
 }
 
-void FixCDEMShape::write_restart(FILE *fp) {
-  if (comm->me == 0)
-    Shearbox::write_state(fp, VERSION, oriented);
-}
+void FixCDEMShape::set_arrays(int i) { set_mass(i); }
 
-void FixCDEMShape::restart(char *buf) { oriented = Shearbox::read_state<int>(lmp, style, VERSION, buf); }
+double FixCDEMShape::first_angle(int i) const {
+  if (seed == 0 || !(atom->mask[i] & groupbit))
+    return 0;
+  std::seed_seq key{seed, int(atom->tag[i])};
+  std::mt19937_64 random(key);
+  return 2 * M_PI * std::ldexp(double(random() >> 11), -53);
+}

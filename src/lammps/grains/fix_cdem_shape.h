@@ -10,9 +10,12 @@
 //                                  connected
 //             file NAME            the same from a file: a line "x y r" a disc, # starts a comment
 //   folder    where the files of the templates after it are, if not in the current folder
-//   density   mass per area (kg/m^2): sets the mass of the group's grains at the start of each run, from the area of
-//             the union of the discs
-//   orient    turns the group's grains to random angles, once; the angle depends on SEED and the atom id alone
+//   density   mass per area (kg/m^2): sets the mass of the group's grains at the start of each run, and of those that
+//   come
+//             in a run as they come, from the area of the union of the discs
+//   orient    a grain of the group that is new in a run has a random angle, which depends on SEED and the atom id
+//   alone;
+//             without it the angle is 0
 //
 // Every atom type needs a template. Mass centre, area and inertia are those of the union of the discs, see
 // core/grain_shape.h. One fix of this style may exist. Without it, all atoms are single discs.
@@ -47,25 +50,27 @@ public:
   static const cdem::GrainShape &shape(LAMMPS *, int type);
 
   FixCDEMShape(LAMMPS *, int, char **);
+  ~FixCDEMShape() override;
 
   int setmask() override;
   void init() override;
   double compute_array(int, int) override;
-  void write_restart(FILE *) override;
-  void restart(char *) override;
+  void set_arrays(int) override;
+
+  // The angle of a grain that is new (rad).
+  double first_angle(int i) const;
 
 private:
   void read_template(Shearbox::DeckWords &);
   std::vector<cdem::GrainShape::Member> read_discs(Shearbox::DeckWords &) const;
   std::vector<cdem::GrainShape::Member> read_file(const std::string &name) const;
-  void set_mass() const;
-  void orient() const;
+  void set_masses() const;
+  void set_mass(int i) const;
 
   std::string folder;                                  // of template files
   std::vector<std::optional<cdem::GrainShape>> shapes; // by type
   double density = 0;                                  // 0: leave the masses alone
   int seed = 0;                                        // 0: leave the angles alone
-  int oriented = 0;
 };
 
 } // namespace LAMMPS_NS

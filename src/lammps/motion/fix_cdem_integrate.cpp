@@ -16,6 +16,7 @@
 #include "force.h"
 #include "modify.h"
 #include "update.h"
+#include "utils.h"
 
 #include <cmath>
 #include <string>
@@ -123,22 +124,28 @@ void FixCDEMIntegrate::tell_grains() {
 }
 
 int FixCDEMIntegrate::setmask() {
-  return FixConst::INITIAL_INTEGRATE | FixConst::PRE_EXCHANGE | FixConst::POST_NEIGHBOR | FixConst::POST_FORCE |
+  return FixConst::INITIAL_INTEGRATE | FixConst::PRE_EXCHANGE | FixConst::POST_NEIGHBOR | FixConst::PRE_REVERSE |
          FixConst::FINAL_INTEGRATE | FixConst::END_OF_STEP;
 }
 
 void FixCDEMIntegrate::init() {
   contacts = &PairCDEM::needed_by("Fix cdem/integrate", lmp)->contacts;
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Fix cdem/integrate: run_style {} must be verlet or verlet/cdem", update->integrate_style);
   if (FixCDEMGrains::find(lmp) != grains)
     take_grains(); // it was taken away
   refuse_second_integrator();
   audit = FixCDEMAudit::find(lmp);
   tell_grains();
+  settle_angles();
+  grains->angles_matter(contacts->rows.has_clumps());
   step.init();
   reset_dt();
 }
 
 void FixCDEMIntegrate::reset_dt() {
+  known_dt = update->dt;
+  step.check();
   grains->weight = step.prediction_weight();
   contacts->renew_constants();
 }
@@ -162,7 +169,6 @@ void FixCDEMIntegrate::setup(int) {
   post_neighbor();
   guard.begin(smallest_disc(), step.scene_limit());
   step.setup();
-  post_force(0);
   to_start.clear();
   for (int i = 0; i < atom->nlocal; i++) {
     if (grains->is_free(i) && !grains->knows_acceleration(i)) {
@@ -175,7 +181,18 @@ void FixCDEMIntegrate::setup(int) {
   grains->accelerations_are_of_this_step();
 }
 
-void FixCDEMIntegrate::post_neighbor() { grains->set_inverses(); }
+// Grains may have come.
+void FixCDEMIntegrate::post_neighbor() {
+  grains->set_inverses();
+  settle_angles();
+}
+
+void FixCDEMIntegrate::settle_angles() {
+  const FixCDEMShape *const shape = FixCDEMShape::find(lmp);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (std::isnan(grains->angle(i)))
+      grains->angle(i) = shape ? shape->first_angle(i) : 0;
+}
 
 double FixCDEMIntegrate::smallest_disc() const {
   double mine = INFINITY, all;
@@ -198,6 +215,8 @@ void FixCDEMIntegrate::end_of_step() {
 }
 
 void FixCDEMIntegrate::initial_integrate(int) {
+  if (update->dt != known_dt) // by timestep, before a run without a setup
+    reset_dt();
   if (guard.is_due())
     guard.check();
   for (int i : to_start)
@@ -219,7 +238,13 @@ void FixCDEMIntegrate::initial_integrate(int) {
   }
 }
 
-void FixCDEMIntegrate::post_force(int) {
+// Right after the contacts' forces: fixes that set forces, such as freeze, act on all of them, wherever they are
+// defined.
+void FixCDEMIntegrate::pre_reverse(int, int) { add_body_forces(); }
+
+void FixCDEMIntegrate::setup_pre_reverse(int, int) { add_body_forces(); }
+
+void FixCDEMIntegrate::add_body_forces() {
   if (!grains->step_rule().has_body_forces())
     return;
   for (int i = 0; i < atom->nlocal; i++) {

@@ -72,7 +72,8 @@ public:
   void pre_exchange() override;
   void post_neighbor() override;
   void initial_integrate(int) override;
-  void post_force(int) override;
+  void setup_pre_reverse(int, int) override;
+  void pre_reverse(int, int) override;
   void final_integrate() override;
   void end_of_step() override;
   double compute_scalar() override;
@@ -82,6 +83,8 @@ public:
   void write_restart(FILE *) override;
   void restart(char *) override;
 
+  // Gravity and drag, to the forces of the contacts.
+  void add_body_forces();
   // Of a step made on rows: what drag takes out, if there is an audit.
   void book_drag(const GrainRows &);
   // Has the neighbour list rebuilt in the next step.
@@ -96,6 +99,7 @@ private:
   void set_rescue(const std::string &file);
   void take_grains();
   void tell_grains();
+  void settle_angles();
   void refuse_second_integrator() const;
   double smallest_disc() const;
   template <class Velocity> void book_drag_at(Velocity);
@@ -106,6 +110,7 @@ private:
   FixCDEMAudit *audit = nullptr;
   double gravity[2] = {0, 0}, drag = 0; // m/s^2, 1/s
   double inertia_factor = 1;
+  double known_dt = 0;       // s, for which the step has been checked
   std::vector<int> to_start; // grains whose acceleration was not known at setup
 };
 

@@ -6,12 +6,14 @@
 #include "atom.h"
 #include "atom_vec.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "fix.h"
 #include "modify.h"
 #include "update.h"
 #include "write_restart.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <utility>
@@ -22,6 +24,8 @@ void Rescue::take() {
   std::swap(copies[0], copies[1]);
   Copy &copy = copies[1];
   copy.step = update->ntimestep;
+  std::copy_n(domain->boxlo, 3, copy.low);
+  std::copy_n(domain->boxhi, 3, copy.high);
   pack_atoms(copy);
   ask_fixes(copy);
 }
@@ -88,13 +92,25 @@ bigint Rescue::write(const std::string &file) {
   Copy &copy = copies[0].step >= 0 ? copies[0] : copies[1];
   if (copy.step < 0)
     return -1;
+  update->ntimestep = copy.step; // some fixes refuse a state of another step
+  restore_box(copy);
   unpack_atoms(copy);
+  domain->pbc();
+  domain->reset_box(); // a shrink-wrapped one: around the atoms
   tell_fixes(copy);
-  update->ntimestep = copy.step;
   std::string name = file, without_setup = "noinit";
   char *words[] = {name.data(), without_setup.data()};
   WriteRestart(lmp).command(2, words);
   return copy.step;
+}
+
+// It may have changed since, and atoms must be inside of it to be read again.
+void Rescue::restore_box(const Copy &copy) {
+  std::copy_n(copy.low, 3, domain->boxlo);
+  std::copy_n(copy.high, 3, domain->boxhi);
+  domain->set_initial_box(0);
+  domain->set_global_box();
+  domain->set_local_box();
 }
 
 double Rescue::bytes() const {

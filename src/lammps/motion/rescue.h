@@ -31,10 +31,12 @@ private:
   struct Copy {
     bigint step = -1; // -1: none
     int natoms = 0;
+    double low[3] = {}, high[3] = {}; // the box
     std::vector<double> atoms;
     std::map<std::string, std::string> fixes; // what they write into restart files, by id; on the first rank
   };
 
+  void restore_box(const Copy &);
   void pack_atoms(Copy &);
   void unpack_atoms(Copy &);
   void ask_fixes(Copy &);

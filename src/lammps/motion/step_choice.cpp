@@ -80,16 +80,22 @@ template <class Value> double StepChoice::scene_minimum(Value value) const {
 }
 
 void StepChoice::apply() {
-  if (chooses()) {
+  if (chooses())
     set_step(kept_step > 0 ? kept_step : at_most_max(OF_WORST_PACKING * limit));
-  } else if (!(update->dt > 0 && std::isfinite(update->dt))) {
+  check();
+}
+
+void StepChoice::check() const {
+  if (!(update->dt > 0 && std::isfinite(update->dt)))
     error->all(FLERR, "Fix cdem/integrate: the time step {} must be positive", update->dt);
-  } else if (rule == Rule::check && update->dt > limit) {
+  if (rule == Rule::check && update->dt > limit)
     error->all(FLERR,
                "Fix cdem/integrate: the time step {:.4g} is beyond the stability limit {:.4g} of this scene (smallest "
                "grain, stiffest contact); take a smaller one, 'dt auto', or 'dt any' to run all the same",
                update->dt, limit);
-  }
+  if (chooses() && update->dt > chosen)
+    error->all(FLERR, "Fix cdem/integrate: the time step {:.4g} is larger than {:.4g}, which {} has chosen", update->dt,
+               chosen, rule == Rule::automatic ? "dt auto" : "dt contacts");
 }
 
 double StepChoice::at_most_max(double step) const {
@@ -100,6 +106,7 @@ double StepChoice::at_most_max(double step) const {
 }
 
 void StepChoice::set_step(double step) {
+  chosen = step;
   if (step == update->dt)
     return;
   update->update_time();

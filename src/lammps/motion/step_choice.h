@@ -22,6 +22,8 @@ public:
   // Reads what follows the word dt.
   void parse(Shearbox::DeckWords &);
 
+  // An error if the present step is beyond what the rule allows, whoever has set it.
+  void check() const;
   // As a run is prepared: the limit of the scene as it is now, and the step by it.
   void init();
   // When contacts are known: chooses the step of `dt contacts`, unless that was done in an earlier run.
@@ -49,6 +51,7 @@ private:
   Rule rule = Rule::check;
   double max_step;
   double limit = 0;    // of the worst packing (s)
+  double chosen = 0;   // by this (s)
   bool warned = false; // in this run
 };
 

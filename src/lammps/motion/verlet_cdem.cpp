@@ -77,10 +77,11 @@ bigint VerletCDEM::next_look() const {
   return next;
 }
 
-// The next step in which a fix or neigh_modify has the list rebuilt.
+// The next step in which the list is to be rebuilt for a fix, for neigh_modify, or for a restart file, which holds
+// atoms that are in the box and with their rank.
 bigint VerletCDEM::next_rebuild() const {
   const bigint now = update->ntimestep;
-  bigint next = MAXBIGINT;
+  bigint next = output->restart_flag && output->next_restart > now ? output->next_restart : MAXBIGINT;
   for (int i = 0; i < modify->nfix; i++)
     if (const Fix *const fix = modify->fix[i]; fix->force_reneighbor && fix->next_reneighbor > now)
       next = std::min(next, fix->next_reneighbor);
@@ -163,7 +164,7 @@ void VerletCDEM::glide_on(bigint target) {
   comm->forward_comm(); // for those who look at ghosts
   force_clear();
   contacts->forces();
-  integrate->post_force(0);
+  integrate->add_body_forces();
   modify->final_integrate();
 }
 
