@@ -65,14 +65,14 @@ def test_as_it_was_written_it_goes_on(written: Run, tmp_path: Path) -> None:
     status, output = read(written, tmp_path, lambda data: data)
     assert status == 0, output
     data = (written.directory / "good.restart").read_bytes()
-    # pair style, and fixes: shape, integrate, grains, lid, move, audit, history
-    assert len(heads(data)) == 8
+    # pair style, and fixes: integrate, grains, lid, move, audit, history
+    assert len(heads(data)) == 7
 
 
 # The text of the pair style, block 0, is as long as its head says.
 @pytest.mark.parametrize(
     ("which", "part"),
-    [(w, p) for w in range(8) for p in ("mark", "version", "length") if (w, p) != (0, "length")],
+    [(w, p) for w in range(7) for p in ("mark", "version", "length") if (w, p) != (0, "length")],
 )
 def test_a_block_of_another_version_is_refused(written: Run, tmp_path: Path, which: int, part: str) -> None:
     def change(data: bytes) -> bytes:

@@ -87,7 +87,7 @@ def test_the_guard_has_the_last_word_beside_fix_deposit(tmp_path: Path) -> None:
 region place block -0.026 -0.025 -0.026 -0.025 0 0
 fix rain grains deposit 100 0 100000 4711 region place mol small units box
 """
-    _fail(tmp_path, RESCUE.replace("MORE", more), bx="f", by="f", ranks=1)
+    _fail(tmp_path, RESCUE.replace("MORE", more), bx="p", by="p", ranks=1)
     assert (tmp_path / "rescue.restart").stat().st_size > 0
 
 
