@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Grains of several discs: from the forces on the discs to that on the grain, and from the motion of the grain to those
-// of its discs. A grain of one disc is the case without an offset, to the same bits.
+// Grains of several discs (clumps): the force on a grain from the forces on its discs, and the motion of its discs from
+// that of the grain. A grain of one disc is the case without offset, and gets the same bits.
 #pragma once
 
 #include "disc_motion.h"
@@ -8,26 +8,27 @@
 
 namespace cdem {
 
-// Of a disc's centre from that of its grain, at angle 0 (m).
+// From the centre of the grain to the centre of the disc, at angle 0 (m).
 struct Offset {
   double x, y;
 };
 
-// The discs of grain i are rows first_row[i] ... first_row[i+1]-1.
+// The arrays of grains and of their discs. A row is the record of a grain or disc (struct Disc). The discs of grain i
+// are rows first_row[i] ... first_row[i+1]-1.
 struct ClumpColumns {
   Disc<double> *grains;
   Body *bodies;
   const int *first_row;
   Disc<double> *discs;
   const Offset *offsets;
-  const Forces<double> *sums; // of the forces on disc `first_summed` and those after it
+  const Forces<double> *sums; // total force on each disc, from disc `first_summed` on
   int first_summed;
 };
 
-// Force on a grain, and the torque about its centre.
+// Force on a grain and torque about its centre: fx, fy, torque, and one unused value.
 [[gnu::always_inline]] inline Four force_on(const ClumpColumns &c, int grain) {
   const Four centre = load_raw<Four>(&c.grains[grain].x);
-  Four sum{}, moments{}; // of which the first two are those of fy and of fx
+  Four sum{}, moments{}; // [0], [1]: moments of fy and of fx; [2], [3] are not used
   for (int row = c.first_row[grain]; row < c.first_row[grain + 1]; row++) {
     const Four force = load_raw<Four>(&c.sums[row - c.first_summed].fx);
     sum += force;
@@ -37,10 +38,10 @@ struct ClumpColumns {
   return sum;
 }
 
-// A disc at offset o from the grain's centre moves with v + omega x o. Over the step it moved with the offset of the
-// half step, o - dt/2 omega x o, which adds dt/2 omega^2 o. All of that is linear in o as it is at angle 0, so a row is
-// that of the grain, and o.x and o.y times what it is for a unit of each: three vectors, and for o.y the same ones
-// turned by a quarter.
+// A disc at offset o from the centre of its grain moves with v + omega x o. During the step, the offset was that of the
+// half step, o - dt/2 omega x o, which adds dt/2 omega^2 o to the velocity of the half step. All this is linear in the
+// offset at angle 0, (o.x, o.y). So the row of a disc is the row of its grain, plus o.x times a vector x, plus o.y
+// times a vector y, which is x turned by a quarter.
 [[gnu::always_inline]] inline void expand(const ClumpColumns &columns, int grain, const Rotation &turn,
                                           double half_step) {
   const Disc<double> &g = columns.grains[grain];
@@ -54,7 +55,7 @@ struct ClumpColumns {
   }
 }
 
-// Some grains whose discs are to be placed: several angles are computed at a time.
+// Collects grains whose discs are to be placed, so that sine and cosine of several angles are computed at a time.
 class Expansion {
 public:
   [[gnu::always_inline]] Expansion(const ClumpColumns &c, double half) : columns(c), half_step(half) {}
@@ -87,7 +88,7 @@ private:
   double angle[ROOM] = {};
 };
 
-// The discs of grains begin ... end-1.
+// Places the discs of grains begin ... end-1.
 [[gnu::always_inline]] inline void expand(const ClumpColumns &columns, int begin, int end, double half_step) {
   Expansion discs(columns, half_step);
   for (int i = begin; i < end; i++)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// An array that begins at a cache line, as the force kernels need it.
+// An array that is aligned to a cache line, as the force kernels need it.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ template <class T> struct CacheLineAllocator {
 
 template <class T> class Column : public std::vector<T, CacheLineAllocator<T>> {
 public:
-  // n entries, all zero. If that takes other memory, the old is given back before.
+  // n entries, all zero. If this needs more memory, the old memory is freed first.
   void reset(std::size_t n) {
     if (n > this->capacity())
       Column().swap(*this);

@@ -5,7 +5,8 @@
 //   tangential  e_s += k_s du_s,   |e_s| <= e_n tan(phi);   at the limit the contact slides and its dashpot is off
 //   viscous     d_n = c_n u_n,  d_s = c_s u_s,   c = 2 h sqrt(m k)
 //
-// It is written once, for T = double or a vector of doubles (lanes.h). What happens within a step is in step_events.h.
+// It is written once, for T = double or a vector of doubles (lanes.h). Corrections for contacts that close, open, begin
+// or cease to slide within a step are in step_events.h.
 #pragma once
 
 #include "books.h"
@@ -13,7 +14,7 @@
 
 namespace cdem {
 
-// The normal spring, one step ago and now, and the part of it by which friction is limited (N).
+// Force of the normal spring one step ago and now; `pressing` is the part of it that limits friction (N).
 template <class T> struct NormalSpring { T before, now, pressing; };
 
 struct DirectAccumulation {
@@ -32,7 +33,7 @@ struct IncrementalAccumulation {
   static constexpr const char *NAME = "incremental";
   static constexpr std::array<Remembered, 1> REMEMBERS{{{"en", "N"}}};
 
-  // A contact that closed in this step, or is met without a history, starts with the overlap it has.
+  // A contact that closed in this step, or has no history, starts with the force of its present overlap.
   template <class T, class Share>
   static NormalSpring<T> spring(const Contact<T> &c, const Share &share, const Material &m, double dt, T *memory) {
     const auto touch = c.overlap > T(0), known = (share.spring == T(1)) && (memory[0] != T(0));
@@ -44,11 +45,12 @@ struct IncrementalAccumulation {
   static double force(double, const Material &, const double *memory) { return memory[0]; }
 };
 
-// Force along n and t on disc a, and a torque that is added to that of the force: the opposite acts on disc b.
+// Force along n and t on disc a (N), and a torque in addition to that of the force (N m). Disc b gets the opposite.
 template <class T> struct Action { T fn, ft, torque; };
 
-// The tangential spring, marked (lanes.h) as long as the contact sticks. Apart, the limit is 0, which clears it. With
-// dt = 0 a contact at the limit stays there: neither value has its mark then.
+// The tangential spring (N). It is marked (its last bit is set, see lanes.h) as long as the contact sticks. When the
+// discs are apart the limit is 0, so the history clears. With dt = 0 a sliding contact stays sliding: both values have
+// the mark removed, so |trial| equals the limit.
 template <class T, class Share>
 [[gnu::always_inline]] inline Friction<T> friction(const Contact<T> &c, const Share &share, const NormalSpring<T> &e_n,
                                                    const Material &m, double dt, T &es) {
@@ -61,7 +63,7 @@ template <class T, class Share>
 }
 
 // Springs, friction and dashpots of a contact; `e_n` is its normal spring. With limit_damping the normal force never
-// pulls: the dashpot fades out before the discs part, so nothing is to be made good then.
+// pulls: the dashpot fades out before the discs separate, so the correction for a contact that opens is left out.
 template <bool limit_damping, class T, class Share, class Books>
 [[gnu::always_inline]] inline Action<T> springs_and_dashpots(const Contact<T> &c, const Share &share,
                                                              const PairConstants<T> &pair, const NormalSpring<T> &e_n,

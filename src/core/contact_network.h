@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The largest stable time step of the contacts that a packing has now, and never more than that.
+// A time step that is stable with the present contacts of a packing: a close bound on the largest one, never above it.
 //
 // With the dashpots at the half step (stability.h), the packing is stable as long as no motion u of all grains has
 //
 //   u.(K dt^2 + 2 C dt) u > 4 u.M u,    K, C: sums over the contacts of k (g.u)^2 and c (g.u)^2,
 //
 // where g.u = g_i.u_i - g_j.u_j is the relative motion of the two grains along the normal or the tangent, or their
-// turning against each other. For any weights y > 0 of the grains, (g.u)^2 <= (1 + y_j/y_i) (g_i.u_i)^2 + (1 + y_i/y_j)
-// (g_j.u_j)^2. So the grains can be looked at one by one: stable if for each of them the largest eigenvalue of
+// rotation against each other. For any weights y > 0 of the grains,
+//
+//   (g.u)^2 <= (1 + y_j/y_i) (g_i.u_i)^2 + (1 + y_i/y_j) (g_j.u_j)^2.
+//
+// So the grains can be looked at one by one: the packing is stable if for each of them the largest eigenvalue of
 //
 //   B_i = M_i^-1 sum over its contacts of (1 + y_j/y_i) (k dt^2 + 2 c dt) g_i g_i
 //
-// is at most 4. y = 1 is Gershgorin's bound; the best weights follow from repeating y_i <- y_i |B_i|, the power method
-// on a matrix without negative entries (Perron, Frobenius; the bounds are those of Collatz and Wielandt). Every round
-// gives a step that is safe. A wall does not move: y = 0. Sliding contacts count as if they stuck.
+// is at most 4. y = 1 gives Gershgorin's bound. The best weights follow from repeating y_i <- y_i |B_i|, the power
+// method on a matrix without negative entries (Perron, Frobenius; the bounds are those of Collatz and Wielandt). The
+// step found in any round is safe. A wall does not move: y = 0. Sliding contacts count as if they stuck.
 #pragma once
 
 #include "declaration.h"
@@ -24,8 +27,9 @@
 
 namespace cdem {
 
-// Largest eigenvalue of the sum of weighted squares of directions, or a little more: Newton's method comes down to the
-// largest root of the characteristic polynomial, from the trace.
+// A symmetric 3 x 3 matrix, the sum of weight d d^T over directions d = (x, y, turn), and its largest eigenvalue, or
+// slightly more: Newton's method approaches the largest root of the characteristic polynomial from above, beginning at
+// the trace.
 class Squares {
 public:
   void add(double weight, double x, double y, double turn) {
@@ -51,30 +55,30 @@ private:
   double xx = 0, yy = 0, tt = 0, xy = 0, xt = 0, yt = 0;
 };
 
-// A contact as one of its grains has it.
+// A contact, seen from one of its two grains.
 struct Touch {
-  int other;     // the other grain, an own one or a ghost
+  int other;     // the other grain, own or ghost
   double nx, ny; // unit normal
-  double ox, oy; // place, from the centre of the grain
+  double ox, oy; // contact point, relative to the centre of the grain (m)
   Resistance resistance;
 };
 
 template <class Packing> class ContactNetwork {
 public:
-  // The packing is looked at again in every round, since its contacts, as they are needed here, would take more memory
-  // than the pairs do. It has
+  // The contacts are computed from the packing anew in every round: to store them in this form would take more memory
+  // than the list of pairs. A Packing has
   //
-  //   own()                       how many own grains
-  //   inverse(i)                  of an own grain: its .mass and .inertia, 0 of a wall
-  //   for_each_touch(i, visit)    calls visit(Touch) for all its contacts
+  //   own()                       number of own grains
+  //   inverse(i)                  1/mass and 1/inertia of an own grain as .mass and .inertia, 0 for a wall
+  //   for_each_touch(i, visit)    calls visit(Touch) for all contacts of own grain i
   explicit ContactNetwork(const Packing &p) : packing(p) {}
 
-  // A stable step, found from a first guess; stops before the best bound when it is `enough`. INFINITY without
-  // contacts.
-  //   weights     one of each own grain and ghost
-  //   to_ghosts() brings the weights of ghosts up to date
-  //   largest(x)  the largest x of all ranks
-  // Takes maxima only, so that the result is the same for any number of ranks.
+  // A stable step (s), improved from a first guess `step`; stops early once it has found `enough` (s). INFINITY if
+  // there are no contacts.
+  //   weights     room for one number of each own grain and ghost
+  //   to_ghosts() copies the weights of own grains to their ghosts on other ranks
+  //   largest(x)  returns the largest x of all ranks
+  // Combines grains by maxima only, so the result is the same for any number of ranks.
   template <class ToGhosts, class Largest>
   double step_limit(double step, double enough, std::vector<double> &weights, ToGhosts to_ghosts,
                     Largest largest) const {
@@ -94,7 +98,8 @@ public:
         return INFINITY;
       for (int i = 0; i < n; i++)
         weights[i] *= loads[i] / most;
-      // with these same weights, a step longer by a factor f has a load of at most f^2, one shorter of at most f
+      // with the same weights, a step f > 1 times as long has at most f^2 times the load, one f < 1 times as long at
+      // most f times
       step *= most > ALLOWED ? ALLOWED / most : std::sqrt(ALLOWED / most);
       best = std::max(best, step);
     }

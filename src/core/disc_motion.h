@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Velocity Verlet of a disc or a grain, on the row that the forces read: the second half of a step with the force that
-// has just been summed, then the first half of the next.
+// Velocity Verlet of a disc or a grain, on its row (struct Disc), which the force loop reads: the second half of a step
+// with the force that has just been summed, then the first half of the next step.
 #pragma once
 
 #include "kinematics.h"
@@ -9,26 +9,27 @@
 
 namespace cdem {
 
-// What the motion needs beside the row.
+// What the motion needs in addition to the row: angle (rad), mass (kg), 1/mass and 1/inertia, which are 0 for walls.
 struct alignas(4 * sizeof(double)) Body {
   double angle, mass;
   double inverse_mass, inverse_inertia;
 };
 
+// How a step is made; see stability.h for `forward`.
 struct StepRule {
   double dt;
-  double forward;        // by how far the dashpots' velocity is ahead of the half step's (s), see stability.h
-  double gx = 0, gy = 0; // gravity
-  double drag = 0;       // deceleration over velocity (1/s), that of the half step
+  double forward;        // by this time the dashpots' velocity is carried forward from the half step (s)
+  double gx = 0, gy = 0; // gravity (m/s^2)
+  double drag = 0;       // deceleration over the velocity of the half step (1/s)
 
   bool has_body_forces() const { return gx != 0 || gy != 0 || drag != 0; }
 };
 
-// How far a grain has gone, and how much it has turned, step by step whatever the direction.
+// Length of the path of a grain (m), and the sum of the amounts of its rotations (rad), over many steps.
 struct alignas(2 * sizeof(double)) Travel {
-  double path = 0, turned = 0; // m, rad
+  double path = 0, turned = 0;
 
-  // By a step with these velocities.
+  // Adds a step with these velocities.
   [[gnu::always_inline]] void add(double vx, double vy, double omega, double dt) {
     const Two squares{vx * vx + vy * vy, omega * omega};
     store_raw(&path, load_raw<Two>(&path) + dt * square_root(squares));
@@ -39,7 +40,7 @@ struct DiscForce {
   double fx, fy, torque;
 };
 
-// The largest squares of the components of the velocity, and of the spin.
+// The largest squares of the velocity components and of the angular velocity among some grains, each by itself.
 struct Fastest {
   double vx2 = 0, vy2 = 0, omega2 = 0;
 
@@ -48,19 +49,19 @@ struct Fastest {
     vy2 = std::max(vy2, squares[1]);
     omega2 = std::max(omega2, squares[2]);
   }
-  // No point within this distance of the centre of its grain moves faster.
+  // Upper bound on the speed of all points within the distance `reach` of the centre of their grain (m/s).
   double speed(double reach) const { return std::sqrt(vx2 + vy2) + reach * std::sqrt(omega2); }
 };
 
-// `sum` is fx, fy, torque, and a value without a use. body_forces: whether there are gravity and drag. `travel` may be
-// null.
+// `sum`: fx, fy, torque, and one unused value. body_forces: whether there is gravity or drag. `fastest` is raised to
+// the squares of the new velocities. `travel` may be null.
 template <bool body_forces>
 [[gnu::always_inline]] inline void advance(Disc<double> &disc, Body &body, Four sum, const StepRule &step,
                                            Four &fastest, Travel *travel) {
   const double half = 0.5 * step.dt;
   const Four place = load_raw<Four>(&disc.x), motion = load_raw<Four>(&disc.vx), of_body = load_raw<Four>(&body.angle);
 
-  Four v = __builtin_shufflevector(place, motion, 2, 3, 6, 7); // the half step's vx, vy, omega, and one not used
+  Four v = __builtin_shufflevector(place, motion, 2, 3, 6, 7); // vx, vy, omega of the half step, and one unused value
   if constexpr (body_forces)
     sum += body.mass * (Four{step.gx, step.gy, 0, 0} - Four{step.drag, step.drag, 0, 0} * v);
   const Four acceleration = sum * __builtin_shufflevector(of_body, of_body, 2, 2, 3, 3);

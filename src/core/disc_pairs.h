@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The pairs of discs that may touch before the next rebuild, with all that is constant for a pair and what the contact
-// remembers beside it.
+// The pairs of discs that may touch before the next rebuild of their list: for each pair its constants and, next to
+// them, what its contact remembers from step to step.
 #pragma once
 
 #include "column.h"
@@ -13,56 +13,56 @@
 
 namespace cdem {
 
-// Eight pairs, one beside the other in each value. All that a step of the direct law reads and writes of them is in one
-// piece of memory, found by one address.
+// Eight pairs, with the eight values of each quantity side by side. All that a step of the direct law reads and writes
+// for them is in one piece of memory, reached from one address.
 struct alignas(64) PairGroup {
   static constexpr int SIZE = 8;
   static constexpr int ROW = sizeof(Disc<double>) / sizeof(double), SLOT = sizeof(Forces<double>) / sizeof(double);
 
-  // Where the rows of the two discs, and the slots for their forces, begin: counted in doubles, which the processor's
-  // addressing scales by itself.
+  // Where the rows of the two discs (struct Disc) begin, and the slots for their forces (force_slots.h). Counted in
+  // doubles: the processor multiplies an index by 8 in the address itself.
   int a[SIZE], b[SIZE], slot_a[SIZE], slot_b[SIZE];
   double radius_sum[SIZE], half_difference[SIZE], dashpot_scale[SIZE];
   double es[SIZE]; // the tangential spring (N)
 };
 
-// What will be needed soon after the pairs of a block: the rows that no block has read yet, and the bodies of the
-// block's grains. The loop over the pairs fetches some of both with every group, and of the groups to come, unless
-// these are null: a scene that does not fit into the second cache would wait for memory, one that does is in no need of
-// it.
+// What the loop over the pairs of a block prefetches, a part with every group: the rows that later blocks will read
+// first, and the bodies (struct Body) of the block's own grains. It also prefetches later groups. Null: it prefetches
+// nothing. A scene larger than the second-level cache would otherwise wait for memory; a smaller one gains nothing.
 struct Ahead {
   const void *rows = nullptr, *bodies = nullptr;
 };
 
-// The pairs as the kernels see them. Columns have one entry a pair.
+// The pairs as the kernels see them. A column is an array with one entry per pair.
 struct PairColumns {
   PairGroup *groups; // the loop may read one group past the end
   Forces<double> *slots;
-  double *const *memories;        // what the law remembers beside the tangential spring
-  const double *const *constants; // of the law, beside PairConstants
-  double *friction, *dashpots;    // lost, see Losses
-  double *const *last_dashpots;   // forces at the beginning of the step: along n and t, then those of what is added
+  double *const *memories;        // what the law remembers in addition to the tangential spring
+  const double *const *constants; // of the law, in addition to PairConstants
+  double *friction, *dashpots;    // energy lost (J), see Losses
+  // Forces of the dashpots at the beginning of the step: along n and t, then those of the law's additions.
+  double *const *last_dashpots;
   Ahead ahead{};
 };
 
-// On the first disc of a pair (N).
+// Force on disc a of a pair (N).
 struct PairForce {
   double fx, fy;
 };
 
 class DiscPairs {
 public:
-  // Pairs of the same two materials: begin ... end-1. Each segment begins with a group; what is left of its last one is
-  // of no meaning.
+  // Pairs begin ... end-1 of one block of discs (force_slots.h) that have the same material. A segment begins with a
+  // new group; what is left over of its last group is not used.
   struct Segment {
     Material material;
     int begin, end;
   };
 
-  std::vector<Segment> segments; // those of block k of the discs: first_segment[k] ... first_segment[k+1]-1
+  std::vector<Segment> segments; // block k has segments first_segment[k] ... first_segment[k+1]-1
   std::vector<int> first_segment;
-  Column<double> friction, dashpots; // see Losses; empty unless there are books
-  Column<PairForce> force;           // of the last step that was kept, see ForceSlots::of_pair
+  Column<double> friction, dashpots; // J, see Losses; empty without an energy audit
+  Column<PairForce> force;           // of the last step whose pair forces were kept, see ForceSlots::of_pair
 
   // Rows of the two discs of pair k; a belongs to the grain of the lower id.
   int a(int k) const { return group(k).a[k % SIZE] / ROW; }
@@ -86,7 +86,7 @@ public:
     group(k).half_difference[k % SIZE] = pair.half_difference;
     group(k).dashpot_scale[k % SIZE] = pair.dashpot_scale;
   }
-  // What the contact remembers; the tangential spring is the first of it.
+  // What the contact remembers: the tangential spring (N), then the numbers that the law adds.
   std::array<double, 1 + MOST_NUMBERS> remembered(int k) const {
     std::array<double, 1 + MOST_NUMBERS> all{es(k)};
     for (std::size_t m = 0; m < memories.size(); m++)
@@ -122,11 +122,12 @@ public:
       last_dashpots[d][k] = all[d];
   }
 
-  // How many numbers of its own a law has for a pair.
+  // How many numbers per pair the law adds.
   struct Width {
-    int memories = 0, constants = 0, last_dashpots = 0; // the last: 0 without books
+    int memories = 0, constants = 0, last_dashpots = 0; // last_dashpots: 0 without an energy audit
   };
-  // Makes room for segments of these sizes, by block and material, all entries zero.
+  // Makes room for segments of these sizes, in the order of blocks and within a block of materials. All entries are
+  // zero.
   void lay_out(const std::vector<Material> &materials, const std::vector<int> &sizes, const Width &width) {
     segments.clear();
     first_segment.assign(1, 0);
@@ -148,7 +149,7 @@ public:
     force.reset(next);
   }
 
-  int entries() const { return int(groups.size() - 1) * SIZE; } // with those of no meaning
+  int entries() const { return int(groups.size() - 1) * SIZE; } // including those not used
 
   // Calls visit(k, material) for every pair.
   template <class Visit> void for_each(Visit visit) const {
@@ -174,7 +175,7 @@ private:
   const PairGroup &group(int k) const { return groups[k / SIZE]; }
   PairGroup &group(int k) { return groups[k / SIZE]; }
 
-  // Some columns, and where each begins.
+  // Several columns, and pointers to their beginnings.
   class Columns {
   public:
     void lay_out(int count, int entries) {

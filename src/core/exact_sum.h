@@ -14,7 +14,8 @@ namespace cdem {
 
 class ExactSum {
 public:
-  // high, low, and the number of terms that are not finite or too large; sums of ranks are sums of these words.
+  // high, low, and the number of terms that were not finite or too large. The words of a total over ranks are the sums
+  // of their words.
   using Words = std::array<std::int64_t, 3>;
 
   ExactSum() = default;
@@ -35,7 +36,7 @@ public:
 
   Words words() const { return {high, low, bad}; }
 
-  // Not a number if a term was none, or too large: a broken force must not look like a sound one.
+  // NaN if a term was not finite, or too large: a broken force must not look like a valid one.
   double value() const {
     if (bad)
       return std::numeric_limits<double>::quiet_NaN();
@@ -46,9 +47,9 @@ public:
 
 private:
   static constexpr double max_term = 0x1p50, coarse_scale = 0x1p10, fine_scale = 0x1p60;
-  static constexpr std::int64_t unit = std::int64_t{1} << 50; // fine steps in a coarse one
+  static constexpr std::int64_t unit = std::int64_t{1} << 50; // low units in a high one
 
-  // Brings low into [-unit/2, unit/2): room for any number of terms, and one form for one value.
+  // Brings low into [-unit/2, unit/2): it never overflows, and equal values have equal words.
   void carry() {
     const std::int64_t shifted = low + unit / 2;
     const std::int64_t whole = (shifted >= 0 ? shifted : shifted - unit + 1) / unit;

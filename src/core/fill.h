@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Diameters of N grains after a power law, and places for them without overlap. The same input gives the same bits on
-// every machine: the generator is fixed by the C++ standard, its distributions and std::shuffle are not, so not used.
+// Diameters of N grains that follow a power law, and positions for them without overlap. The same input gives the same
+// bits on every machine: the C++ standard fixes the generator, but not its distributions and std::shuffle, which are
+// therefore not used.
 #pragma once
 
 #include <algorithm>
@@ -34,8 +35,8 @@ inline double power_law_quantile(double q, double smallest, double largest, doub
   return std::clamp(smallest * d, smallest, largest);
 }
 
-// One diameter from the middle of each of n equal shares of the law: it is met for any n, and for any seed with the
-// same diameters. Only their order depends on the seed.
+// The law is divided into n equal shares, and each gives the diameter in its middle. So the law is met for any n, with
+// the same diameters for any seed: only their order depends on the seed.
 inline std::vector<double> power_law_diameters(int n, double smallest, double largest, double power, Random &random) {
   std::vector<double> diameters(n);
   for (int i = 0; i < n; ++i)
@@ -48,9 +49,10 @@ struct Place {
   double x, y;
 };
 
-// Discs side by side in rows from the bottom of a width x height box upward, in the given order. A row is as high as
-// its largest disc. What is left of a row's width, and of the height, is shared out at random, so that no disc overlaps
-// another or the box. `needed` is the height that the rows take; there are no places if that is more than `height`.
+// Positions of discs side by side in rows, from the bottom of a width x height box upward, in the given order. A row is
+// as high as its largest disc. The width that a row leaves free, and the height that all rows leave free, are divided
+// at random into gaps, so that no disc overlaps another or the box. `needed` returns the height of all rows; if that is
+// more than `height`, no positions are returned.
 inline std::vector<Place> rows_of_discs(const std::vector<double> &diameters, double width, double height,
                                         Random &random, double &needed) {
   struct Row {

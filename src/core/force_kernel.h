@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The loops of a time step, compiled once for each instruction set of the machine's family and chosen at run time. All
-// give the same bits, except those for x86-64 without fused multiply-add (see lanes.h).
+// The loops of a time step (kernels), compiled once for each instruction set and chosen at run time. All give the same
+// bits, except those for x86-64 without fused multiply-add (see lanes.h).
 #pragma once
 
 #include "clump_motion.h"
@@ -14,23 +14,23 @@
 namespace cdem {
 
 struct Kernels {
-  // The forces of pairs begin ... end-1, a segment of DiscPairs.
+  // Computes the forces of pairs begin ... end-1, a segment of DiscPairs.
   void (*forces)(const Disc<double> *discs, const PairColumns &, const Material &, int begin, int end, double dt);
-  // Sums the forces of a block's discs, to sums[disc - first].
+  // Sums the forces on each disc of a block into sums[disc - first].
   void (*sum)(const SlotBlock &, Forces<double> *sums, int first);
-  // Places the discs of grains begin ... end-1; half_step as in clump_motion.h.
+  // Places the discs of grains begin ... end-1; half_step (s) as in clump_motion.h.
   void (*expand)(const ClumpColumns &, int begin, int end, double half_step);
-  // Moves those of them that are no walls by a step, once the forces on their discs are summed. The last argument, one
-  // for each grain, may be null; so below.
+  // Moves grains begin ... end-1, except walls, by a step, and places their discs; the forces on the discs have been
+  // summed before. The last argument has one entry per grain, or is null; the same below.
   void (*advance_clumps)(const ClumpColumns &, int begin, int end, const StepRule &, Fastest &, Travel *);
-  // Sums the forces of a block's discs, and moves these by a step, but for walls.
+  // For grains of one disc: sums the forces on the discs of a block and moves the discs, except walls, by a step.
   void (*advance)(const SlotBlock &, Disc<double> *, Body *, const StepRule &, Fastest &, Travel *);
 };
 
 // Names of the instruction sets that this machine can run, the fastest first; the last is always "baseline".
 std::vector<std::string> instruction_sets();
 
-// Those of one of them.
+// The kernels for one of these instruction sets.
 Kernels kernels(const ContactRules &, const std::string &instructions);
 
 } // namespace cdem

@@ -10,7 +10,7 @@
 #include <array>
 
 namespace cdem {
-namespace { // a copy for each instruction set, under no shared name
+namespace { // without a name, so that each instruction set has its own copy
 
 #ifdef CDEM_HAS_SIMD
 using Widest = stdx::native_simd<double>;
@@ -20,8 +20,8 @@ using Widest = double;
 constexpr int WIDTH = 1;
 #endif
 
-// Columns of a pair's numbers: copies of the pointers, since the compiler must assume that what is stored may change
-// those in memory.
+// Some columns of the list of pairs. Has copies of the pointers: the compiler must assume that a store may change
+// pointers that are in memory.
 template <int n, class Number> struct Numbers {
   std::array<Number *, n> columns;
 
@@ -38,7 +38,7 @@ template <int n, class Number> struct Numbers {
   }
 };
 
-// The books of eight pairs, if somebody keeps them.
+// The columns of the energy losses of the pairs (books.h). Does nothing without an energy audit.
 template <class Books> struct BookColumns {
   explicit BookColumns(const PairColumns &) {}
   NoLosses load_all(int) const { return {}; }
@@ -72,20 +72,21 @@ template <int lines> [[gnu::always_inline]] inline const void *prefetch(const vo
   return begin + LINE * lines;
 }
 
-// Groups ahead, and what the block's grains and the next block will need.
+// Prefetches a later group of pairs, and a part of what the block's grains and the next block will need (see Ahead).
 [[gnu::always_inline]] inline void prefetch(const PairGroup *group, Ahead &ahead) {
   constexpr int GROUPS = 8;
   prefetch<sizeof(PairGroup) / LINE>(group + GROUPS);
-  ahead.rows = prefetch<4>(ahead.rows); // three grains have some eight pairs
+  ahead.rows = prefetch<4>(ahead.rows); // eight pairs belong to about three grains
   ahead.bodies = prefetch<2>(ahead.bodies);
 }
 
-// Root and division of the next pairs are begun before the law is applied to these: see Distance. Flattened, or the
-// compiler leaves parts of some laws as functions, to which vectors are handed over in memory.
+// The square root and the division of the next pairs are started before the law is applied to the present ones: see
+// Distance. Flattened: otherwise the compiler leaves parts of some laws as functions, to which vectors are passed
+// through memory.
 template <class Law, class Books, class T, bool fetches>
 [[gnu::flatten]] void loop(const Disc<double> *discs, const PairColumns &p, const Material &material, int begin,
                            int end, double dt) {
-  const Material m = material; // a copy: the compiler must assume that what is stored may change it
+  const Material m = material; // a copy: the compiler must assume that a store may change the original
   const Numbers<Law::MEMORIES, double> memories(p.memories);
   const Numbers<Law::CONSTANTS, const double> constants(p.constants);
   const BookColumns<Books> book_columns(p);
@@ -133,7 +134,7 @@ void sum(const SlotBlock &block, Forces<double> *sums, int first) {
   for_each_sum(block, block.end, [=](int disc, Four sum) { store_raw(&sums[disc - first].fx, sum); });
 }
 
-// Calls loop(body_forces, travels) with both choices as constants that the compiler knows.
+// Calls loop(body_forces, travels) with both choices as compile-time constants.
 template <class Loop> [[gnu::always_inline]] inline void choose(const StepRule &step, const Travel *travel, Loop loop) {
   using std::false_type, std::true_type;
   if (step.has_body_forces())

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Where the force of each pair goes, and in what order it is summed. Every pair has a slot of its own for either disc,
-// so that no two pairs ever write to one place; the slots of a disc are side by side, in an order that depends on the
-// ids of its partners alone. Within a block of discs those with equally many slots follow each other: then the
-// processor foresees the end of every sum.
+// Where the force of each pair is stored, and in what order the forces are summed. Every pair has two slots of its own,
+// one for the force on each of its discs, so no two pairs write to the same place. The slots of a disc are contiguous,
+// in an order that depends only on the ids of the other discs. Discs are computed in blocks of some hundred. Within a
+// block, discs with the same number of slots follow each other: then the processor predicts the end of every sum.
 #pragma once
 
 #include "column.h"
@@ -18,14 +18,14 @@ struct SlotRun {
   int count, begin, end;
 };
 
-// The sums of a block of discs, those of walls last; `slots` is its first.
+// What the sums over a block of discs need; walls come last. `slots` is the first slot of the block.
 struct SlotBlock {
   const Forces<double> *slots;
   const int *order;
   const SlotRun *begin, *end_of_grains, *end;
 };
 
-// The discs of one run; with a count that the compiler knows there is no loop left.
+// The sums of one run. With a count that is known at compile time there is no inner loop left.
 template <int known_count, class Visit>
 [[gnu::always_inline]] inline const double *for_each_sum(const SlotRun &run, const int *order, const double *slot,
                                                          Visit visit) {
@@ -39,7 +39,7 @@ template <int known_count, class Visit>
   return slot;
 }
 
-// Calls visit(disc, sum of its forces) for the discs of a block, up to one of its two ends.
+// Calls visit(disc, sum of its forces) for the discs of a block up to `end`: end_of_grains or end of the block.
 template <class Visit>
 [[gnu::always_inline]] inline void for_each_sum(const SlotBlock &block, const SlotRun *end, Visit visit) {
   const double *slot = &block.slots->fx;
@@ -66,15 +66,15 @@ template <class Visit>
     }
 }
 
-// The block k that a row is in: starts[k] <= row < starts[k+1].
+// The block k to which a row belongs: starts[k] <= row < starts[k+1].
 inline int block_of(const std::vector<int> &starts, int row) {
   return int(std::upper_bound(starts.begin(), starts.end(), row) - starts.begin()) - 1;
 }
 
 class ForceSlots {
 public:
-  // Rows starts[k] ... starts[k+1]-1 are block k. The pairs of a disc are in the order of rank(the disc on the other
-  // side).
+  // Rows starts[k] ... starts[k+1]-1 are block k. The forces on a disc are summed in ascending rank(row of the other
+  // disc).
   template <class Rank, class IsWall>
   void build(DiscPairs &pairs, const std::vector<int> &starts, Rank rank, IsWall is_wall) {
     const int n = starts.back();
@@ -122,7 +122,7 @@ public:
     std::for_each(begin, begin + counts[row], visit);
   }
 
-  // The sum of one disc, to the bits of for_each_sum, as long as its block is the last one that was computed.
+  // The sum of the forces on one disc, with the same bits as for_each_sum; valid until the next block is computed.
   Four sum(int row) const {
     Four sum{};
     for (int s = first_slot[row]; s < first_slot[row] + counts[row]; s++)
@@ -130,14 +130,14 @@ public:
     return sum;
   }
 
-  // The force on disc a of pair k, as long as the block of that pair is the last one that was computed.
+  // The force on disc a of pair k; valid until the next block is computed.
   PairForce of_pair(const DiscPairs &pairs, int k) const {
     const bool a_is_summed = pairs.slot_a(k) != unsummed();
     const Forces<double> &f = slots[a_is_summed ? pairs.slot_a(k) : pairs.slot_b(k)];
     return a_is_summed ? PairForce{f.fx, f.fy} : PairForce{-f.fx, -f.fy};
   }
 
-  // The end of the rows that pairs of the blocks up to k read, but for ghosts.
+  // One past the last row that pairs of blocks 0 ... k read, ghosts excepted.
   int read_end(int k) const { return read_ends[k]; }
 
   int blocks() const { return int(first_run.size()) - 1; }
@@ -155,7 +155,7 @@ public:
   }
 
 private:
-  int unsummed() const { return int(slots.size()) - 1; } // the slot for what nobody sums
+  int unsummed() const { return int(slots.size()) - 1; } // of all forces that are not summed: on ghosts
 
   void count_slots(const DiscPairs &pairs, int n) {
     counts.assign(n, 0);
@@ -172,7 +172,7 @@ private:
     }
   }
 
-  // In each block grains before walls, and those with equally many slots together.
+  // In each block, grains come before walls, and discs with the same number of slots follow each other.
   template <class IsWall> void make_runs(const std::vector<int> &starts, IsWall is_wall) {
     order.resize(starts.back());
     for (std::size_t row = 0; row < order.size(); row++)
@@ -199,11 +199,12 @@ private:
     }
   }
 
-  // Blocks are computed and summed in turn. A block's slots are in use from the first block with a pair that reaches
-  // into it until its own sum; after that later blocks take their place, so that all of them stay in the cache.
+  // Blocks are computed and summed in turn. A pair may write to slots of a later block, so a block's slots are in use
+  // from the first block with such a pair until its own sum. After that later blocks reuse the memory, so that all
+  // slots in use stay in the cache.
   void assign_slots(const DiscPairs &pairs, const std::vector<int> &starts) {
     const int blocks = int(starts.size()) - 1;
-    std::vector<int> end(blocks + 1, 0); // slots before the end of a block
+    std::vector<int> end(blocks + 1, 0); // end[k]: number of slots of the blocks before k
     read_ends.assign(blocks, 0);
     for (int k = 0; k < blocks; k++) {
       end[k + 1] = end[k];
@@ -220,7 +221,7 @@ private:
       in_use = std::max(in_use, end[block_of(starts, read_ends[k] - 1) + 1] - end[k]);
       largest = std::max(largest, end[k + 1] - end[k]);
     }
-    const int room = std::min(total, in_use + largest); // a block that does not fit at the end begins anew
+    const int room = std::min(total, in_use + largest); // a block that does not fit at the end goes to the beginning
     slots.reset(room + 1);
     block_slot.assign(blocks, 0);
     first_slot.resize(starts.back());
@@ -236,9 +237,9 @@ private:
   }
 
   Column<Forces<double>> slots;
-  int total = 0; // slots that are summed, each in its time
+  int total = 0; // forces to be summed in a step; there are fewer slots, since blocks reuse them
   std::vector<int> order;
-  std::vector<int> first_slot, first_pair, counts; // of each disc: its first slot, and its pairs in order
+  std::vector<int> first_slot, first_pair, counts; // of each disc; its pairs begin at pair_of_slot[first_pair]
   std::vector<int> pair_of_slot;
   std::vector<SlotRun> runs;
   std::vector<int> first_run, first_wall_run, block_slot, read_ends; // of each block

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A rigid grain made of discs: its discs about the centre of mass, and the area, inertia and surface of their union.
+// A rigid grain made of discs: where the discs are relative to the centre of mass, and area, inertia and surface of
+// their union.
 //
 // Everything follows from the boundary of the union, which consists of arcs, by Green's theorem:
 //   area     = 1/2 integral of x dy - y dx
@@ -26,7 +27,7 @@ public:
 
   static constexpr std::size_t MOST_DISCS = 1000;
 
-  // The discs in any unit and position, or std::invalid_argument with what is wrong with them.
+  // The discs may be in any unit and at any position. Throws std::invalid_argument, which says what is wrong with them.
   explicit GrainShape(const std::vector<Member> &given) : members(given) {
     check();
     bring_near();
@@ -58,9 +59,9 @@ public:
   double area() const { return unit_area; }       // over radius^2
   double inertia() const { return unit_inertia; } // over mass radius^2
 
-  // How many neighbours of its discs' own size fit around the grain (six around a disc); how unevenly their directions
-  // phi lie, |sum of exp(2 i phi)|; and the sum over them of the squared lever arms of a normal and of a tangential
-  // force, over radius^2. For the stability limit.
+  // For the stability limit: how many neighbours of the size of the grain's own discs fit around it (six around a
+  // disc); how unevenly their directions phi are distributed, |sum of exp(2 i phi)|; and the sums over them of the
+  // squared lever arms of the normal and of the tangential force, over radius^2.
   double neighbours() const { return surface.neighbours; }
   double unevenness() const { return std::hypot(surface.cos2, surface.sin2); }
   double normal_levers() const { return surface.normal; }
@@ -80,7 +81,7 @@ private:
     double neighbours, cos2, sin2, normal, tangential;
   };
 
-  static constexpr double TOUCHING = 1e-6; // gap, over the smaller radius, at which two discs still count as joined
+  static constexpr double TOUCHING = 1e-6; // largest gap, over the smaller radius, at which two discs count as joined
 
   static std::string name(std::size_t k) { return "disc " + std::to_string(k + 1); }
 
@@ -132,7 +133,7 @@ private:
       throw std::invalid_argument(name(apart - reached.begin()) + " is disconnected from disc 1");
   }
 
-  // The arcs of disc k that no other disc covers, as angles; with all radii larger by `grow`.
+  // The arcs of disc k, as angles, that no other disc covers, with all radii larger by `grow`.
   std::vector<Arc> exposed(std::size_t k, double grow = 0) const {
     const Member &d = members[k];
     const double r = d.r + grow;
@@ -165,7 +166,7 @@ private:
     return free;
   }
 
-  // An arc, cut at +-pi where it passes that.
+  // Adds an arc, cut in two at +-pi if it passes that angle.
   static void add_within_turn(std::vector<Arc> &arcs, double from, double to) {
     if (from < -M_PI) {
       arcs.push_back({from + 2 * M_PI, M_PI});
@@ -178,7 +179,7 @@ private:
     arcs.push_back({from, to});
   }
 
-  // Integrals of cos^n over an arc, n = 1 ... 4; those of sin^n are the same a quarter turn back.
+  // Integrals of cos^n over an arc, n = 1 ... 4. Those of sin^n are the same for the arc turned back by pi/2.
   struct Powers {
     double c1, c2, c3, c4;
 
@@ -216,7 +217,8 @@ private:
     return sum;
   }
 
-  // About the first disc, in units of the largest radius: the moments of a template far away would lose their digits.
+  // Takes the first disc as origin and the largest radius as unit: otherwise the moments of a template far from the
+  // origin would lose digits.
   void bring_near() {
     const Member origin = members.front();
     double unit = 0;
@@ -242,9 +244,9 @@ private:
       d = {d.x / radius, d.y / radius, d.r / radius};
   }
 
-  // The centres of neighbours of a disc's own size lie where no other disc is in their way, at least 60 degrees apart:
-  // six on a full turn, one more than there are gaps on an arc. Lever arms: |o x n| of the normal force, o.n + r of the
-  // tangential one.
+  // Neighbours are of a disc's own size, with centres where no other disc is in the way, and at least 60 degrees apart:
+  // six around a full turn; on an arc, one more than there are gaps of 60 degrees. Lever arms: |o x n| of the normal
+  // force, o.n + r of the tangential force, where o is the offset of the disc and n the direction of the neighbour.
   void survey_surface() {
     surface = {0, 0, 0, 0, 0};
     for (std::size_t k = 0; k < members.size(); k++) {
@@ -262,8 +264,9 @@ private:
     }
   }
 
-  // Neighbours at 60 degrees from each other, from one end of an arc to the other; on a full turn, one less. If their
-  // number is not whole, the sums are those of an even spread, which for whole numbers are the same.
+  // Neighbours 60 degrees apart, from one end of an arc to the other; around a full turn one less, since its ends
+  // coincide. If their number is not an integer, sums over them are taken over an even distribution, which gives the
+  // same sums for integers.
   struct Neighbours {
     double from, to, count;
 
@@ -274,7 +277,8 @@ private:
       count = 3 / M_PI * (to - from);
     }
 
-    // Sum of cos(n (phi - zero)). An integral over the arc takes 60 degrees for each neighbour, which weakens it.
+    // Sum over the neighbours of cos(n (phi - zero)). In the integral over the arc each neighbour is spread over 60
+    // degrees, which weakens the cosine by a known factor.
     double cosine(int n, double zero) const {
       const double weakened = std::sin(n * M_PI / 6) / (n * M_PI / 6);
       return 3 / M_PI * (std::sin(n * (to - zero)) - std::sin(n * (from - zero))) / n / weakened;

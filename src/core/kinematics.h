@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Where two discs are to each other and how their rims move: what every contact law begins with.
+// The relative position of two discs and the relative motion of their rims, which every contact law begins with.
 #pragma once
 
 #include "lanes.h"
 
 namespace cdem {
 
-// What the law needs of one disc. The springs follow the displacement of the step, so they take the velocity of the
-// half step, with which the positions moved; the dashpots take the velocity at the time of the force.
+// The row of a disc: all that the law needs of it (m, m/s, rad/s). The springs follow the displacement of the step, so
+// they take the velocity of the half step, with which the positions moved. The dashpots take the velocity at the time
+// of the force.
 template <class T> struct alignas(8 * sizeof(T)) Disc {
   T x, y;
   T vx_half, vy_half;
@@ -15,7 +16,7 @@ template <class T> struct alignas(8 * sizeof(T)) Disc {
   T omega_half, omega;
 };
 
-// Disc a relative to disc b, and the spins of both.
+// Position and velocity of disc a relative to disc b, and the angular velocities of both.
 template <class T> struct Relative {
   T x, y;
   T vx_half, vy_half;
@@ -29,20 +30,22 @@ inline Relative<double> relative(const Disc<double> &a, const Disc<double> &b) {
           b.omega_half, b.omega};
 }
 
-// Constants of one pair of discs. The lever arms to the contact point are r - overlap/2: of disc a, half the distance
-// plus, and of disc b, half the distance minus half the difference of the radii.
+// Constants of one pair of discs. The lever arms to the contact point are r - overlap/2, that is half the distance plus
+// (disc a) or minus (disc b) half the difference of the radii.
+// dashpot_scale: 2 sqrt(m) m/(m + mass_of_steps()), where m = m_a m_b/(m_a + m_b), or the mass of the grain against a
+// wall.
 template <class T> struct PairConstants {
   T radius_sum, half_difference; // r_a + r_b, (r_a - r_b)/2
-  T dashpot_scale; // 2 sqrt(m), m = m_a m_b/(m_a + m_b), or the grain's mass against a wall; less by mass_of_steps
+  T dashpot_scale;               // sqrt(kg)
 };
 
-// Relative motion of the contact point of disc a against b, along n (from b to a) and t (n turned by +90 degrees):
-// that of the centres, less that of the rims by the spin = omega_a l_a + omega_b l_b, l the lever arms.
+// Velocity of disc a relative to disc b at the contact point (m/s), along n (from b to a) and t (n turned by +90
+// degrees): that of the centres, and along t less omega_a l_a + omega_b l_b, where l are the lever arms.
 template <class T> struct Approach { T n, t; };
 
-// Displacement of a step over dt. It was made about the distance and the normal of the middle of the step, while `half`
-// is taken about those of its end. The difference is of first order in dt; this removes it, and leaves exactly no slip
-// where the two discs turn as one body. `across` is the part of half.t that is not spin.
+// Relative displacement in a step, over dt. It took place with the distance and the normal of the middle of the step,
+// while `half` is taken with those of its end. The difference is of first order in dt; this removes it, so that two
+// discs which turn as one body slip by an error of second order only. `across` is the part of half.t without the spins.
 template <class T>
 inline Approach<T> of_step(const Approach<T> &half, T across, T omega_sum, T inverse_distance, double dt) {
   const T turning = across * inverse_distance;
@@ -50,8 +53,8 @@ inline Approach<T> of_step(const Approach<T> &half, T across, T omega_sum, T inv
   return {n, fused(T(0.25 * dt) * n, fused(T(2), turning, omega_sum), half.t)};
 }
 
-// Of the centres of two discs. Root and division take so long that a loop had better begin with those of the next
-// pairs.
+// Distance of the centres of two discs, and its inverse. The square root and the division take so long that a loop
+// should start those of the next pairs early.
 template <class T> struct Distance { T length, inverse; };
 
 template <class T> [[gnu::always_inline]] inline Distance<T> distance_of(const Relative<T> &u) {
@@ -59,12 +62,12 @@ template <class T> [[gnu::always_inline]] inline Distance<T> distance_of(const R
   return {length, T(1) / length};
 }
 
-// Where two discs are to each other, and how their rims move.
+// Relative position of two discs and relative motion of their rims.
 template <class T> struct Contact {
   T nx, ny, overlap, before; // before: the overlap one step ago
-  T lever_a, lever_b;
+  T lever_a, lever_b;        // from the centres to the contact point
   Approach<T> half, now, step;
-  T turning_half, turning; // of disc a against disc b, rad/s: in the step, and at the time of the force
+  T turning_half, turning; // of disc a against disc b (rad/s): of the half step, and at the time of the force
 };
 
 template <class T>
@@ -87,10 +90,10 @@ template <class T>
   return c;
 }
 
-// Force on the first disc, and the torques on both, about the disc centres.
+// Force on the first disc (N), and the torques on both about their centres (N m).
 template <class T> struct alignas(4 * sizeof(T)) Forces { T fx, fy, torque_a, torque_b; };
 
-// The same, with b as the first disc.
+// The same pair, with b as the first disc.
 template <class T> inline Forces<T> opposite(const Forces<T> &f) { return {-f.fx, -f.fy, f.torque_b, f.torque_a}; }
 
 } // namespace cdem

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// From rows in memory (a disc, the force of a pair) to lanes of a vector and back. A row is read with whole loads and
-// transposed in registers, which is several times faster than gathering its values one by one. The indices are those of
-// PairGroup, in doubles.
+// Moves data between rows in memory (the values of a disc, the force of a pair) and the lanes of vectors, one lane per
+// pair. A row is read with whole loads and transposed in registers, which is several times faster than gathering its
+// values one by one. Indices are those of PairGroup, counted in doubles.
 #pragma once
 
 #include "disc_pairs.h"
@@ -16,7 +16,7 @@ inline Relative<double> load_relative(const Disc<double> *discs, const int *a, c
 inline double load(const double *column, double) { return *column; }
 inline void store(double *column, double value) { *column = value; }
 
-// The force on a to its slot, and the opposite one, with the torque on b, to that of b.
+// Stores the force on disc a in its slot, and the opposite force, with the torque on b, in the slot of b.
 inline void store_forces(Forces<double> *slots, const int *slot_a, const int *slot_b, const Forces<double> &f) {
   slots[*slot_a / PairGroup::SLOT] = f;
   slots[*slot_b / PairGroup::SLOT] = opposite(f);
@@ -24,12 +24,12 @@ inline void store_forces(Forces<double> *slots, const int *slot_a, const int *sl
 
 #ifdef CDEM_HAS_SIMD
 
-// Four values of each of W rows, in four vectors: of rows 0 and 4, 1 and 5, ... for W = 8; of row 0, 1, ... for W = 4;
-// and for W = 2, the first halves of rows 0 and 1, then the second ones.
+// Four values of each of W rows, in four vectors. W = 8: rows 0 and 4 in the first, 1 and 5 in the second, ...; W = 4:
+// one row in each; W = 2: the first halves of rows 0 and 1 in two vectors, then the second halves in two.
 template <int W> using Quads = typename Raw<W>::type[4];
 
-// Two rows of four values in one vector, and taken apart again. AVX-512 has one instruction for it, which GCC 12 does
-// not find.
+// Joins two rows of four values in one vector, or takes them apart. AVX-512 has one instruction for either, which GCC
+// 12 does not find.
 [[gnu::always_inline]] inline Raw<8>::type join(Four low, Four high) {
 #if defined(__AVX512F__)
   return _mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1);
@@ -46,7 +46,7 @@ template <int W> using Quads = typename Raw<W>::type[4];
 #endif
 }
 
-// The first four values of W rows and the second four.
+// Loads the first four values of W rows, and the second four.
 template <int W>
 [[gnu::always_inline]] inline void load_quads(Quads<W> &first, Quads<W> &second, const Disc<double> *discs,
                                               const int *index) {
@@ -81,21 +81,22 @@ template <int W>
   }
 }
 
-// Every other value of a and of b, in turn: of two rows of four values a, b: a0 b0 a2 b2, or a1 b1 a3 b3.
+// Interleaves every other value of a and of b. From rows of four values, with odd = 0: a0 b0 a2 b2; with odd = 1: a1 b1
+// a3 b3.
 template <int odd, class R, std::size_t... l> [[gnu::always_inline]] inline R zip(R a, R b, std::index_sequence<l...>) {
   constexpr int W = sizeof...(l);
   return __builtin_shufflevector(a, b, (int(l - l % 2) + odd + (l % 2 ? W : 0))...);
 }
 
-// Of each four values the first (0) or last (1) two of a, then those of b.
+// From each four values, the first (last = 0) or last (last = 1) two of a, then those of b.
 template <int last, class R, std::size_t... l>
 [[gnu::always_inline]] inline R pack(R a, R b, std::index_sequence<l...>) {
   constexpr int W = sizeof...(l);
   return __builtin_shufflevector(a, b, (int(l - l % 4 + l % 2) + 2 * last + (l % 4 < 2 ? 0 : W))...);
 }
 
-// Quads of rows to four vectors of one value each, or back: each block of four by four, or two by
-// two, is transposed.
+// Turns Quads of rows into four vectors of one value each, or back: transposes each block of four by four, or two by
+// two.
 template <int W> [[gnu::always_inline]] inline void transpose(Quads<W> &q) {
   constexpr std::make_index_sequence<W> lanes;
   if constexpr (W == 2) {
@@ -108,7 +109,7 @@ template <int W> [[gnu::always_inline]] inline void transpose(Quads<W> &q) {
   }
 }
 
-// opposite() of quad i of forces.
+// opposite() of the forces in vector i of Quads.
 template <class R, std::size_t... l>
 [[gnu::always_inline]] inline R opposite_quad(R q, int i, std::index_sequence<l...>) {
   if constexpr (sizeof...(l) == 2)
@@ -116,7 +117,7 @@ template <class R, std::size_t... l>
   return __builtin_shufflevector(q, q, int(l % 4 < 2 ? l : l ^ 1)...) * R{(l % 4 < 2 ? -1.0 : 1.0)...};
 }
 
-// Differences are taken of whole rows, before they are transposed.
+// The first four values are subtracted as whole rows, before they are transposed.
 template <class Abi>
 [[gnu::always_inline]] inline Relative<Lanes<Abi>> load_relative(const Disc<double> *discs, const int *a, const int *b,
                                                                  Lanes<Abi>) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The few operations that the contact law needs beside arithmetic, for one pair at a time (double) and for several at a
-// time (std::experimental::simd, where the standard library has it).
+// The few operations that the contact law needs in addition to arithmetic, for one pair at a time (double) and for
+// several at a time (std::experimental::simd, where the standard library has it).
 #pragma once
 
 #include <cmath>
@@ -67,8 +67,8 @@ inline bool is_marked(double x) { return bits(x) & 1; }
 inline double marked(double x) { return of_bits(bits(x) | 1); }
 inline double unmarked(double x) { return of_bits(bits(x) & ~1ull); }
 
-// a b + c, rounded once where the machine has an instruction for it. x86-64 has none in its baseline: there the last
-// bits are those of two roundings.
+// a b + c, rounded once where the machine has an instruction for it. The x86-64 baseline has none: there it is rounded
+// twice, and the last bits differ.
 #if defined(__FMA__) || defined(__ARM_FEATURE_FMA)
 [[gnu::always_inline]] inline double fused(double a, double b, double c) { return __builtin_fma(a, b, c); }
 [[gnu::always_inline]] inline double fused_minus(double a, double b, double c) { return __builtin_fma(a, b, -c); }
@@ -107,7 +107,7 @@ template <class Abi> [[gnu::always_inline]] inline Lanes<Abi> with_sign_of(Lanes
   return of_bits<Abi>(bits(size) | (bits(sign) & bits(Lanes<Abi>(-0.0))));
 }
 template <class Abi> inline Lanes<Abi> fused(Lanes<Abi> a, Lanes<Abi> b, Lanes<Abi> c) {
-  [[maybe_unused]] constexpr int W = Lanes<Abi>::size(); // the library's own fma falls apart into scalars in GCC 12
+  [[maybe_unused]] constexpr int W = Lanes<Abi>::size(); // in GCC 12 the library's own fma is a loop over scalars
 #if defined(__AVX512F__)
   if constexpr (W == 8)
     return Lanes<Abi>(_mm512_fmadd_pd(raw(a), raw(b), raw(c)));
@@ -137,7 +137,7 @@ template <class Abi> inline Lanes<Abi> fused_minus(Lanes<Abi> a, Lanes<Abi> b, L
 template <class Abi> inline bool any(LaneMask<Abi> condition) { return stdx::any_of(condition); }
 
 template <class Abi> [[gnu::always_inline]] inline LaneMask<Abi> is_marked(Lanes<Abi> x) {
-  constexpr int EXPONENT = 52; // where the bit makes a number that is not denormal
+  constexpr int EXPONENT = 52; // shifted there, the bit makes a number that is not denormal
   return of_bits<Abi>((bits(x) & 1) << EXPONENT) > Lanes<Abi>(0);
 }
 template <class Abi> [[gnu::always_inline]] inline Lanes<Abi> marked(Lanes<Abi> x) { return of_bits<Abi>(bits(x) | 1); }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the springs, the dashpots and the friction of a contact are made of.
+// The constants of springs, dashpots and friction.
 #pragma once
 
 #include <cmath>
 
 namespace cdem {
 
-// Constants of one pair of materials.
+// Constants of the contacts between two atom types.
 struct Material {
   double kn = 0, ks = 0; // N/m
   double dn = 0, ds = 0; // dashpots over 2 sqrt(m): h sqrt(k)

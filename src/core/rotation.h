@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Cosine and sine of the angles of grains, to the same bits whether one or several are computed at a time, which no
-// mathematical library promises. Within 2e-16 for angles up to 1e6 rad.
+// Cosine and sine of the angles of grains, with the same bits whether one angle or several are computed at a time,
+// which no mathematical library promises. The error is within 2e-16 for angles up to 1e6 rad.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,9 @@ struct Rotation {
   double cosine, sine;
 };
 
-// The angle is taken to within a quarter of pi of a multiple of pi/2, that multiple in three parts of which the first
-// two have trailing zeros enough for an exact product; there the series of both functions are summed until the next
-// term is below the last bit. The multiple's last two bits, as they stand in the sum with 1.5 * 2^52, tell the
-// quadrant.
+// Subtracts the nearest multiple of pi/2, which leaves at most pi/4. For this, pi/2 is split into three parts, of which
+// the first two have enough trailing zeros for exact products. Then the series of both functions are summed until the
+// next term is below the last bit. `shifted` is the multiple plus 1.5 * 2^52, so its last two bits give the quadrant.
 [[gnu::always_inline]] inline Rotation rotation(double angle) {
   constexpr double TWO_OVER_PI = 0x1.45f306dc9c883p-1, ROUND = 0x1.8p52;
   constexpr double FIRST = 0x1.921fb544p+0, SECOND = 0x1.0b4611a6p-34, THIRD = 0x1.3198a2e037073p-69; // of pi/2

@@ -5,13 +5,13 @@
 namespace cdem {
 
 struct ContactRules {
-  int accumulation = 0;   // place in the list of laws.h
-  unsigned additions = 0; // bit k: the k-th of the list there
+  int accumulation = 0;   // index in Accumulations, see laws.h
+  unsigned additions = 0; // bit k: whether the k-th of Additions is in use, see laws.h
   bool limit_damping = false;
-  bool books = false; // of losses
+  bool books = false; // whether energy losses are summed, for an energy audit
 };
 
-// More numbers of a pair than any law has, beside the tangential spring and PairConstants.
+// The most numbers per pair that a law may have, in addition to the tangential spring and PairConstants.
 constexpr int MOST_NUMBERS = 8;
 
 } // namespace cdem

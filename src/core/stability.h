@@ -2,19 +2,19 @@
 // The largest stable time step of a packing (Otsubo, O'Sullivan, Shire 2017: it depends on the contacts of a grain, not
 // on the duration of one contact).
 //
-// The worst packing is the one where a grain has as many neighbours of its own kind as fit around it, N, and its
+// The worst packing is the one in which a grain has N neighbours of its own kind, as many as fit around it. Its
 // stiffest modes are those in which neighbours move against each other, or all turn the same way, so that every contact
-// sees twice the displacement of one grain. With S = |sum of exp(2 i phi)| over the directions of the neighbours, and
-// the lever arms l of the contacts, the largest eigenvalues of K are then at most
+// sees twice the displacement of one grain. With S = |sum of exp(2 i phi)| over the directions phi of the neighbours,
+// and the lever arms l of the contacts, the largest eigenvalues of K are then at most
 //
 //   N (k_n + k_s) + S |k_n - k_s|        moving, relative to m
 //   2 (k_n sum l_n^2 + k_s sum l_t^2)    turning, relative to I
 //
-// Six neighbours of a disc can't all be in antiphase: by Bloch's theorem the triangular lattice has at most 6 k_n + 3
-// k_s.
+// Six neighbours of a disc cannot all be in antiphase: by Bloch's theorem the triangular lattice has at most
+// 6 k_n + 3 k_s.
 //
-// The step scheme takes the dashpots at the half step, carried forward by a share w of half a step. A mode with
-// stiffness k, damping c and mass m is stable while k dt^2 + 2 (1 + w) c dt < 4 m.
+// The dashpots take the velocity of the half step, carried forward by a share w of half a step. A mode with stiffness
+// k, damping c and mass m is stable while k dt^2 + 2 (1 + w) c dt < 4 m.
 #pragma once
 
 #include "declaration.h"
@@ -27,6 +27,7 @@
 
 namespace cdem {
 
+// A mode of motion (N/m, N s/m, kg) or of rotation (N m, N m s, kg m^2).
 struct Mode {
   double stiffness, damping, mass;
 
@@ -37,7 +38,7 @@ struct Mode {
     return (std::sqrt(damping * damping + 4 * mass * stiffness) - damping) / stiffness;
   }
 
-  // Largest stable w, at most 1: then the scheme is of second order.
+  // Largest stable w, at most 1. With w = 1 the scheme is of second order.
   double prediction_weight(double dt) const {
     constexpr double MARGIN = 0.95;
     const double left = 4 * mass - (stiffness * dt + 2 * damping) * dt, used = 2 * damping * dt;
@@ -51,11 +52,12 @@ struct AmongItsLike {
   const GrainShape &shape;
   double mass, radius, inertia;
   Material material;
-  Resistance added; // of one contact, beside springs and dashpots of the material
+  Resistance added; // by the law's additions, for one contact
 };
 
-// Moving; turning all the same way; and turning against each other, which only what is added resists. A disc cannot do
-// both of the latter at one contact; for grains of several discs they are taken together.
+// Three modes: grains move against each other; all turn the same way; neighbours turn in opposite directions. At a
+// contact of two discs the last two exclude each other, and only the law's additions have a spring against the last
+// (the dashpots are counted in both). For grains of several discs both are added up.
 inline std::array<Mode, 3> stiffest_modes(const AmongItsLike &grain) {
   const GrainShape &shape = grain.shape;
   const Material &m = grain.material;

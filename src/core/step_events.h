@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What happens within a step: contacts close and open, begin and cease to slide at some moment of it. With what stands
-// here the forces count for their part of the step, so that the time integration is of second order, and of third in a
-// normal impact.
+// Events within a step: a contact closes or opens, begins or ceases to slide, at some moment between two steps. The
+// corrections here make the forces count for the part of the step in which they acted. With them the time integration
+// is of second order, and of third order for a normal impact.
 #pragma once
 
 #include "kinematics.h"
@@ -13,30 +13,32 @@ namespace cdem {
 
 // Weights of a pair's forces, when it was in contact for only a part of the step just made.
 //
-// The trapezoidal rule of the time integration gives half of either neighbouring step to a force. A contact that closed
-// a fraction f of the step ago acted during f, not 1/2, of it: its dashpots count f + 1/2 now. One that opened after a
-// fraction f of the step got 1/2 of it when it was last seen: the dashpots' share of f - 1/2 is made good now. Without
-// this a dashpot switches on and off at the borders of steps, and the scheme is of first order in time.
-//
-// What is left is of second order. Expanding the exact motion about the moment at which the contact closes or opens,
-// with the overlap changing by X in the step and b = c_n dt/m, it is an impulse of
+// In the time integration (trapezoidal rule), a force counts for half of the step before it and half of the step after
+// it. A contact that closed a fraction f of the step ago acted during f of that step, not 1/2: its dashpots now count
+// f + 1/2. A contact that opened after a fraction f of the step was given 1/2 when it was last seen: now the dashpots
+// get the difference, f - 1/2. Without this, dashpots switch on and off at the borders of steps, and the scheme is of
+// first order in time.
+// The remaining error is of second order. Expand the exact motion about the moment at which the contact closes or
+// opens, with X the change of the overlap in the step and b = c_n dt/m (at most 1 here). The error is an impulse of
 //
 //   spring   k_n X (1 - 3 f (1 - f))/6 dt
 //   dashpot  c_n u_n times -5/12 b (closing) or (f/2 - 1/3) b (opening) dt
 //
-// to be added now (f itself is b f (1 - f)/2 too large when a contact opens). With it a normal impact is of third
-// order. Springs without dashpots go without: velocity Verlet alone keeps their energy, on average, for ever.
+// which is added now. (When a contact opens, the f that is computed here is too large by b f (1 - f)/2.) With it a
+// normal impact is of third order. Without dashpots no impulse is added: velocity Verlet alone conserves the energy of
+// the springs on average.
 //
-// With the impulse, the work that the scheme does against a spring is k_n X^2/6 more when the contact closes, and as
-// much less when it opens, than the spring takes and gives, at any f: for the books that is work of the dashpot.
+// With the impulse, the work of the scheme against a spring is not the energy that the spring takes up or gives back:
+// it is k_n X^2/6 more when the contact closes, and as much less when it opens, for any f. The energy audit books this
+// as work of the dashpot.
 template <class T> struct Presence {
   T spring;               // share of this step's displacement that was made in contact
   T dashpot_n, dashpot_t; // weights of the dashpots
-  T impulse;              // normal force that is added (N)
-  T loss;                 // in the books (J)
+  T impulse;              // additional normal force (N)
+  T loss;                 // booked as work of the dashpot (J)
 };
 
-// The same where no contact closed or opened in the step: fewer instructions, and no other bits.
+// The same if no contact closed or opened in the step: fewer instructions, the same bits.
 template <class T> struct Steady { T spring, dashpot_n, dashpot_t, impulse, loss; };
 
 template <class T> [[gnu::always_inline]] inline Steady<T> steady(T overlap) {
@@ -44,7 +46,7 @@ template <class T> [[gnu::always_inline]] inline Steady<T> steady(T overlap) {
   return {T(1), weight, weight, T(0), T(0)};
 }
 
-// Of pairs some of which closed or opened in the step; before is the overlap one step ago.
+// The general case: some of the pairs closed or opened in the step. `before` is the overlap one step ago (m).
 template <class T>
 [[gnu::always_inline]] inline Presence<T> presence(T overlap, T before, T dashpot_scale, const Material &m, double dt) {
   const auto touch = overlap > T(0), changed = touch != (before > T(0));
@@ -59,14 +61,14 @@ template <class T>
           select(changed, select(touch, kx, -kx) * X, lasting.loss)};
 }
 
-// The dashpots of a pair that are to be used with steps of dt, over 2 h sqrt(m k): with them an oscillation decays per
-// period as it does without steps.
+// A mass (kg): with steps of dt, a pair of mass m uses m/(m + this) of its dashpots. Then an oscillation decays per
+// period as in the exact motion.
 //
-// The dashpots' velocity comes from the two half steps behind, x' - dt^2/3 x''', and the scheme's acceleration is
-// x'' + dt^2/12 x''''. For x' = lambda x the equation of motion gives lambda^3 and lambda^4 in terms of lambda, and so
-// the damping ratio of the scheme, h (1 + (11 - 20 h^2)/24 k dt^2/m), which this takes away: a pair of mass m has
-// m/(m + this) of its dashpots. w is the share by which the velocity is carried forward (stability.h); as it goes to 0
-// so does the correction.
+// The velocity of the dashpots is extrapolated from the last two half steps, which gives x' - dt^2/3 x'''; the
+// acceleration of the scheme is x'' + dt^2/12 x''''. With x' = lambda x the equation of motion gives lambda^3 and
+// lambda^4 in terms of lambda, and so the damping ratio of the scheme, h (1 + (11 - 20 h^2)/24 k dt^2/m). The reduction
+// removes this excess, if it is positive. w is the share by which the velocity is carried forward (stability.h); the
+// correction is proportional to w.
 inline double mass_of_steps(const Material &material, double dt, double w) {
   const double h = material.dn / std::sqrt(material.kn);
   return w * std::max(0.0, (11 - 20 * h * h) / 24) * material.kn * dt * dt;
@@ -74,24 +76,25 @@ inline double mass_of_steps(const Material &material, double dt, double w) {
 // PairConstants::dashpot_scale of a pair of mass m, given mass_of_steps().
 inline double dashpot_scale(double m, double of_steps) { return 2 * std::sqrt(m) * m / (m + of_steps); }
 
-// The tangential spring of a pair in this step and before it, what it would be without friction's limit, and that
-// limit.
+// The tangential spring of a pair now and one step ago, what it would be now without the limit of friction (`trial`),
+// and that limit now and one step ago (N).
 template <class T> struct Friction {
   T es, trial, limit;
   T es_before, limit_before;
 };
 
-// The tangential spring of a contact that closed or opened in the step acted during f of it; the time integration gives
-// it the mean of before and now for all of it. If the contact closed and sticks, or stuck until it opened and so let go
-// of a stretched spring and of a dashpot, the difference is a force that is to be added now. If it slides, the spring
-// is mu times the normal one, and so is its impulse: then nothing is missing but that work in the books.
+// The tangential spring of a contact that closed or opened in the step acted during a fraction of the step, while the
+// time integration counts the mean of before and now for the whole step. If the contact closed and sticks, the
+// difference is a force that is added now. The same holds if it stuck until it opened, and so released a stretched
+// spring and a dashpot. If it slides, the spring is mu times the normal spring, and so is its impulse: no force is
+// missing, only friction work in the energy audit.
 template <class T> struct PartOfStep { T force, friction; }; // (N), (J)
 
 template <class T>
 [[gnu::always_inline]] inline PartOfStep<T> part_of_step(const Contact<T> &c, const Presence<T> &share,
                                                          const PairConstants<T> &pair, const Friction<T> &f,
                                                          const Material &m, double dt) {
-  constexpr double FAR = 0.5; // from sliding, which sets in before the contact opens
+  constexpr double FAR = 0.5; // share of the limit; a contact above it slides before it opens
   const auto touch = c.overlap > T(0), touched = c.before > T(0);
   const auto closes = touch && !touched, opens = touched && !touch;
   const auto closes_sticking = closes && magnitude(f.trial) < f.limit;
@@ -109,11 +112,12 @@ inline PartOfStep<T> part_of_step(const Contact<T> &, const Steady<T> &, const P
   return {T(0), T(0)};
 }
 
-// Of pairs some of which began or ceased to slide in the step: what their tangential dashpot counts beside its weight,
-// by the rule of Presence, as it acts while the contact sticks. One that sticks until a fraction f of the step got 1/2
-// when it was last seen, one that sticks from then on gets 1 now instead of 1 - f + 1/2. A spring reaches its limit as
-// if both changed uniformly. A contact slides as long as the spring, but for the limit, gains on it, at a rate that is
-// known for the middle of the step and for its end.
+// For pairs of which some began or ceased to slide in the step: what is added to the weight of the tangential dashpot,
+// which acts only while the contact sticks; the rule is that of Presence. A contact that sticks until a fraction f of
+// the step was given 1/2 when it was last seen: f - 1/2 is added. One that sticks from f on gets 1 now instead of
+// 1 - f + 1/2: 1/2 - f is added. The moment when sliding begins: spring and limit are taken to change uniformly. The
+// moment when it ceases: a contact slides as long as the spring, if it had no limit, would grow faster than the limit;
+// the difference of these rates is known for the middle of the step and for its end.
 template <class T, class Mask>
 [[gnu::always_inline]] inline T weight_of_switch(const Contact<T> &c, const Friction<T> &f, Mask stuck, Mask sticks,
                                                  const Material &m, double dt) {

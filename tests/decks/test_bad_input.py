@@ -73,7 +73,7 @@ CASES: dict[str, tuple[str, str, str]] = {
     "an atom out of the plane": ("timestep", "set atom 1 z 0.001\ntimestep", r"atom 1 is at z = 0.001, must be 0"),
     "radii that change": ("atom_style    sphere", "atom_style    sphere 1", r"atom_style sphere 1 must be sphere or sphere 0"),
     "a neighbour list without a skin": ("0.001 bin", "0 bin", r"the skin of the neighbour list is 0, must be positive"),
-    "minimize": ("run           20", "minimize 0 1e-6 10 100", r"minimize has no steps of time"),
+    "minimize": ("run           20", "minimize 0 1e-6 10 100", r"minimize makes no time steps"),
     "a period that two grains fill": ("timestep", "change_box all boundary p f p\nset atom 1 diameter 0.021\ntimestep", r"the box is periodic over 0.04 m in x, must be 0.042 m"),
     "two grains in one place": ("timestep", "set group grains x 0.001\nset group grains y 0\ntimestep", r"discs of atoms \d+ and \d+ have the same centre \(0.001, 0\)"),
     "no integrator": ("fix           move grains cdem/integrate dt check", "", r"Pair style cdem needs a fix cdem/integrate"),

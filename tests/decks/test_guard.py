@@ -190,7 +190,7 @@ def test_a_force_that_is_no_number_is_found(tmp_path: Path, law: str, style: str
     assert (tmp_path / "rescue.restart").exists()
 
 
-WARNING = r"at step (\d+) the time step \S+ is beyond the stability limit (\S+) of the contacts"
+WARNING = r"at step (\d+) the time step \S+ is beyond the stability limit (\S+) of the present contacts"
 
 
 @pytest.mark.parametrize("fraction", [0.9, 1.1])

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Angles to directions, and a grain's motion to those of its discs and back.
+// Cosine and sine of angles; the motion of discs from that of their grain, and the force on a grain from those on its
+// discs.
 #include "core/clump_motion.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +31,7 @@ TEST(Rotation, OfNothingIsExact) {
 
 namespace {
 
-// A grain of two discs and one of one, in motion; row 0 and 1, and 2.
+// A grain of two discs (rows 0 and 1) and one of a single disc (row 2), in motion.
 struct Grains {
   std::vector<Disc<double>> grains{{0.1, 0.2, 3, -4, 3.5, -4.5, 70, 80}, {-0.3, 0.1, 1, 2, 1.5, 2.5, 5, 6}};
   std::vector<Body> bodies{{0.7, 1, 1, 1}, {-2, 1, 1, 1}};

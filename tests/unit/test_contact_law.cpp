@@ -18,10 +18,10 @@ struct Scene {
   double radius_a = 2e-3, radius_b = 1.5e-3;
   double es = 0, en = 0; // what the contact remembers
 
-  // Disc b in the origin, disc a to its right by the sum of the radii less the overlap.
+  // Disc b is at the origin; disc a is to its right, at the sum of the radii less the overlap.
   explicit Scene(double overlap) { a.x = radius_a + radius_b - overlap; }
 
-  // The velocities of the half step are those of the full one, as in uniform motion.
+  // The velocities of the half step equal those of the full step, as in uniform motion.
   Scene &moving(double vx, double vy, double omega_a = 0, double omega_b = 0) {
     a.vx = a.vx_half = vx;
     a.vy = a.vy_half = vy;
@@ -62,7 +62,7 @@ TEST(ContactLaw, ApartThereIsNoForceAndNoMemory) {
 
 TEST(ContactLaw, AtRestTheNormalForceIsStiffnessTimesOverlap) {
   EXPECT_NEAR(Scene(1e-6).force<DirectAccumulation>().fx, KN * 1e-6, 1e-9 * KN * 1e-6);
-  EXPECT_NEAR(Scene(1e-6).force<IncrementalAccumulation>().fx, KN * 1e-6, 1e-9 * KN * 1e-6); // met without a history
+  EXPECT_NEAR(Scene(1e-6).force<IncrementalAccumulation>().fx, KN * 1e-6, 1e-9 * KN * 1e-6); // without history
 }
 
 TEST(ContactLaw, DashpotsAreTwiceTheDampingRatioTimesRootOfMassAndStiffness) {
@@ -92,8 +92,8 @@ TEST(ContactLaw, TheTangentialSpringAddsUpTheSlipOfTheRims) {
     s.moving(0, vy, omega_a, omega_b);
     for (int step = 0; step < 3; ++step)
       s.force();
-    // Lever arms end in the middle of the overlap. The disc's own turning about the other is slip, too: a third of a
-    // step's worth of second order is what the tolerance leaves.
+    // Lever arms end in the middle of the overlap. The disc also turns about the other one, which is slip, too: the
+    // tolerance allows this error of second order, a third of a step's worth.
     const double slip = vy - omega_a * (s.radius_a - overlap / 2) - omega_b * (s.radius_b - overlap / 2);
     EXPECT_NEAR(s.es, -KS * slip * 3 * DT, 1e-6 * KS * std::fabs(slip) * 3 * DT);
   }
@@ -106,7 +106,7 @@ TEST(ContactLaw, TorquesActAtTheContactPoint) {
   EXPECT_NEAR(f.fy, 20, 1e-12);
   EXPECT_NEAR(f.torque_a, -20 * (s.radius_a - 0.5e-6), 1e-15);
   EXPECT_NEAR(f.torque_b, -20 * (s.radius_b - 0.5e-6), 1e-15);
-  // No moment about the origin in all: x_a x F + torques.
+  // The total moment about the origin is zero: x_a x F + torques.
   EXPECT_NEAR(s.a.x * f.fy + f.torque_a + f.torque_b, 0, 1e-16);
 }
 
@@ -171,7 +171,7 @@ TEST(ContactLaw, ActionIsReaction) {
   EXPECT_EQ(f.fy, -g.fy);
   EXPECT_EQ(f.torque_a, g.torque_b);
   EXPECT_EQ(f.torque_b, g.torque_a);
-  EXPECT_EQ(s.es, mirror.es); // t turns with n, and so does the slip
+  EXPECT_EQ(s.es, mirror.es); // swapping the discs turns t and the slip alike
 }
 
 TEST(ContactLaw, NoDirectionIsSpecial) {
@@ -190,7 +190,8 @@ TEST(ContactLaw, NoDirectionIsSpecial) {
   }
 }
 
-// Leapfrog: the displacement of a step over its length is the velocity of the half step.
+// The tangential spring after two discs have turned by one radian as one body. As in leapfrog, the velocity of the half
+// step is the displacement of the step over its length.
 double spring_after_turning_as_one_body(int steps) {
   const double w = 1000, step = 1e-3 / steps;
   Scene s(1e-6);
@@ -207,7 +208,7 @@ double spring_after_turning_as_one_body(int steps) {
 }
 
 TEST(ContactLaw, TwoDiscsThatTurnAsOneBodyDoNotSlip) {
-  // By one radian: the rims would wind up the spring to ks x distance, if each turned alone.
+  // If the discs turned alone, without moving, their rims would stretch the spring to ks x distance.
   const double coarse = spring_after_turning_as_one_body(100), fine = spring_after_turning_as_one_body(200);
   EXPECT_LT(std::fabs(coarse), 2e-5 * KS * 3.5e-3);
   EXPECT_NEAR(coarse / fine, 4, 0.1); // second order
@@ -242,7 +243,7 @@ TEST(Presence, ApartBeforeAndAfter) {
   EXPECT_EQ(p.impulse, 0);
 }
 
-// In all of these the contact lasts.
+// A contact that was and is closed.
 Contact<double> lasting(double approach, double slip) {
   Contact<double> c{};
   c.overlap = c.before = 1e-6;
@@ -256,7 +257,8 @@ TEST(Switch, BeginsToSlideAfterAFractionOfTheStep) {
 }
 
 TEST(Switch, SticksSinceAFractionOfTheStep) {
-  // Free of the limit, the spring would lose 1 N in the step, and loses 3 N a step at its end: since 3/4 of a step.
+  // At the end of the step, the spring without its limit would fall behind the limit at 3 N per step; on average over
+  // the step at 1 N per step: so the contact has stuck for 3/4 of a step.
   const double slip = 3 / (KS * DT), approach = 3 / (MU * KN * DT);
   for (const auto &c : {lasting(0, slip), lasting(-approach, 0)})
     EXPECT_NEAR(weight_of_switch(c, {9, 9, 10, 10, 10}, false, true, steel, DT), 0.75 - 0.5, 1e-12);
@@ -267,8 +269,9 @@ TEST(Switch, NotWhereNothingChanges) {
   EXPECT_EQ(weight_of_switch(lasting(0, 1), {10, 12, 10, 10, 10}, false, false, steel, DT), 0);
 }
 
-// Coefficient of restitution of two discs of which the law is asked step by step, with so many steps a contact, the
-// worst of some moments in a step at which they may touch first, less exp(-pi h/sqrt(1 - h^2)).
+// Error of the coefficient of restitution of two discs against exp(-pi h/sqrt(1 - h^2)): the force comes from the law,
+// step by step, with `steps` steps per contact. The worst over 32 phases, that is moments within a step at which the
+// discs first touch.
 double worst_error_of_restitution(double h, int steps) {
   const Material m = material(KN, KS, h, h, 0.5);
   const double mass = 1e-3; // of the pair
@@ -303,8 +306,8 @@ TEST(ContactLaw, NormalImpactIsOfThirdOrder) {
   }
 }
 
-// What a disc has after it met a fixed one with this tangential over normal speed: velocities of centre and rim, over
-// the normal speed. It is so slow that the normal does not turn.
+// State of a disc after it has met a fixed one; `slip` is its tangential over its normal speed before. Velocity of the
+// centre and of the rim, over the normal speed. The disc is so slow that the normal does not turn.
 std::vector<double> after_oblique_impact(double slip, int steps, double phase) {
   const double radius = 1e-3, inertia = 0.5 * MASS * radius * radius, speed = 1e-5;
   const double dt = M_PI * std::sqrt(MASS / KN) / steps;
@@ -341,20 +344,20 @@ double worst_error_of_oblique_impact(double slip, int steps) {
   return worst;
 }
 
-// Friction with a tangential dashpot, which acts while the contact sticks: from one that does so nearly always to one
-// that slides at both ends.
+// Friction with a tangential dashpot, which acts while the contact sticks: from an impact that sticks nearly always to
+// one that slides at its beginning and its end.
 TEST(ContactLaw, ImpactsThatStickAndSlipAreOfSecondOrder) {
   for (double slip : {2 * MU, 3 * MU, 5 * MU, 7 * MU}) {
-    // a sixteenth of the step: the factor of second order is 256, that of first order 16
+    // the fine step is 1/16 of the coarse one: an error of second order falls by 256, one of first order by 16
     const double coarse = worst_error_of_oblique_impact(slip, 20), fine = worst_error_of_oblique_impact(slip, 320);
     EXPECT_LT(coarse, 2e-3) << slip;
     EXPECT_GT(coarse / fine, 100) << slip;
   }
 }
 
-// The scheme that a pair sees, alone: velocity Verlet, the dashpot's velocity carried forward by half a step. The decay
-// of x'' + 2 h x' + x = 0 over a step is exp(-h dt); that of a sequence of lambda^n is its product of two neighbours
-// less the square between, here and one step on.
+// The time integration of a single pair: velocity Verlet, with the dashpot's velocity carried forward by half a step.
+// x'' + 2 h x' + x = 0 decays by exp(-h dt) in a step. For a sum of two geometric sequences, x_n^2 - x_(n-1) x_(n+1) is
+// a geometric sequence, with the product of their factors: its ratio over one step gives the decay.
 TEST(ContactLaw, ScaledDashpotsDecayAsWithoutSteps) {
   for (double h : {0.05, 0.215, 0.5})
     for (double dt : {0.3, 0.15}) {

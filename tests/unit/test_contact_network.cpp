@@ -17,7 +17,7 @@ constexpr double KN = 1e8, KS = 2.5e7, MASS = 3e-4, RADIUS = 2e-3;
 
 Material with_damping(double h, double ks = KS) { return material(KN, ks, h, h, 0.5); }
 
-// A packing as a test describes it: grains, and contacts with their place from either centre.
+// A packing as a test describes it: grains, and contacts with their places relative to either centre.
 struct Grain {
   double mass, inertia; // mass 0: a wall
 };
@@ -30,7 +30,7 @@ struct Packing {
   std::vector<Grain> grains;
   std::vector<Contact> contacts;
   Material material;
-  Resistance::Part rolling{}; // against turning on each other
+  Resistance::Part rolling{}; // of the two grains against rolling on each other
 
   double root_mass(const Contact &c) const {
     const double a = grains[c.a].mass, b = grains[c.b].mass;
@@ -113,7 +113,7 @@ Contact touching(int a, int b, double nx, double ny, double ra = RADIUS, double 
   return {a, b, nx, ny, -ra * nx, -ra * ny, rb * nx, rb * ny};
 }
 
-// n x n discs on a lattice that repeats, with contacts along these directions.
+// n x n discs on a periodic lattice, with contacts along these directions.
 Packing lattice(int n, const std::vector<std::array<int, 2>> &steps, double angle, const Material &m) {
   Packing p{std::vector<Grain>(n * n, disc()), {}, m};
   for (int i = 0; i < n; i++)
@@ -125,7 +125,7 @@ Packing lattice(int n, const std::vector<std::array<int, 2>> &steps, double angl
   return p;
 }
 
-// The step limit of modes with these sums of kn and ks, and of the dashpots alike.
+// The step limit of modes, each given by its sums of kn and of ks; the dashpots have the same sums.
 double closed_form(const std::vector<std::array<double, 2>> &modes, const Material &m) {
   const double root = 2 * std::sqrt(MASS / 2);
   double limit = INFINITY;
@@ -138,12 +138,12 @@ TEST(Squares, LargestEigenvalue) {
   Squares one;
   one.add(3, 1, -2, 0.5);
   EXPECT_NEAR(one.largest(), 3 * 5.25, 1e-9);
-  Squares equal; // a double root, of which Newton's method stays a little above
+  Squares equal; // a double root: Newton's method stops slightly above it
   equal.add(2, 1, 0, 0);
   equal.add(2, 0, 1, 0);
   EXPECT_GE(equal.largest(), 2);
   EXPECT_NEAR(equal.largest(), 2, 1e-4);
-  Squares coupled; // {{5, 2}, {2, 2}}: 6 and 1
+  Squares coupled; // {{5, 2}, {2, 2}}, with eigenvalues 6 and 1
   coupled.add(1, 2, 1, 0);
   coupled.add(1, 1, 0, 0);
   coupled.add(1, 0, 1, 0);
@@ -155,7 +155,7 @@ TEST(ContactNetwork, WithoutContactsThereIsNoLimit) {
   EXPECT_EQ((Packing{{disc(), disc()}, {}, with_damping(0)}.limit()), INFINITY);
 }
 
-// k (1/m + 1/M) of the heavier and the lighter disc moving against each other, however different they are.
+// Two discs that move against each other: the eigenvalue is k (1/m + 1/M), however different their masses are.
 TEST(ContactNetwork, TwoDiscs) {
   for (double ratio : {1.0, 3.0, 100.0, 1e6}) {
     const Packing p{{disc(), disc(ratio * MASS)}, {touching(0, 1, 0.6, 0.8)}, with_damping(0, 0)};
@@ -168,7 +168,7 @@ TEST(ContactNetwork, DiscOnAWall) {
   EXPECT_NEAR(p.limit() / (2 / std::sqrt(KN / MASS)), 1, 1e-6);
 }
 
-// Neighbours in antiphase: 4 kn in a chain, 4 (kn + ks) on a square lattice; all turning the same way: 8 ks and 16 ks.
+// Neighbours in antiphase: 4 kn in a chain, 4 (kn + ks) on a square lattice. All turning the same way: 8 ks and 16 ks.
 TEST(ContactNetwork, ChainAndSquareLatticeAreExact) {
   for (double h : {0.0, 0.215, 0.9})
     for (double ks : {KS, KN}) {
@@ -182,7 +182,7 @@ TEST(ContactNetwork, ChainAndSquareLatticeAreExact) {
     }
 }
 
-// By Bloch's theorem at most 6 kn + 3 ks and 24 ks.
+// By Bloch's theorem the eigenvalues are at most 6 kn + 3 ks and 24 ks.
 TEST(ContactNetwork, TriangularLattice) {
   for (double h : {0.0, 0.215, 0.9}) {
     const Material m = with_damping(h);
@@ -193,7 +193,7 @@ TEST(ContactNetwork, TriangularLattice) {
   }
 }
 
-// Grains of any mass and inertia with contacts anywhere on them, as clumps have.
+// Grains of random mass and inertia, with contacts at random places on them, as clumps have.
 Packing irregular(int seed, const Material &m) {
   std::mt19937 random(seed);
   auto number = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(random); };
@@ -233,7 +233,7 @@ TEST(ContactNetwork, StopsWhenItIsEnough) {
   const double limit = p.limit();
   EXPECT_GE(p.limit(0.8 * limit), 0.8 * limit);
   EXPECT_LE(p.limit(0.8 * limit), limit);
-  EXPECT_LT(p.limit(1.1 * limit), 1.1 * limit); // this much it never finds
+  EXPECT_LT(p.limit(1.1 * limit), 1.1 * limit); // asked for more than there is, it returns less
 }
 
 } // namespace

@@ -16,7 +16,8 @@ TEST(FillSizes, EqualDiametersStayEqual) {
     EXPECT_EQ(d, 2);
 }
 
-// The share of diameters below d of n ~ d^p is (d^(p+1) - a^(p+1))/(b^(p+1) - a^(p+1)), for p = -1 log(d/a)/log(b/a).
+// The share of diameters below d, for n(d) ~ d^p from a to b: (d^(p+1) - a^(p+1))/(b^(p+1) - a^(p+1)), or for p = -1
+// log(d/a)/log(b/a).
 TEST(FillSizes, LawIsMetToOneGrain) {
   for (double p : {-3.0, -1.0, 0.0, 2.0}) {
     Random random(7);

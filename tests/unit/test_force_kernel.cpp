@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The kernels of all instruction sets give the same bits. Without fused multiply-add, as here in the test, these are
-// those of the plain loop over doubles; with it they differ from these by rounding.
+// The kernels of all instruction sets give the same bits. Without fused multiply-add, as this test is compiled, these
+// are also the bits of the plain loop over doubles; kernels with it differ from the plain loop by rounding.
 #include "core/column.h"
 #include "core/disc_pairs.h"
 #include "core/force_kernel.h"
@@ -30,7 +30,7 @@ constexpr double DT = 2e-7;
 
 bool is_wall(int disc) { return disc % 5 == 0; }
 
-// Discs of 1 mm on a jittered line, each pair of neighbours overlapping, apart, closing or opening within the step.
+// Discs of radius 1 mm on a jittered line. Neighbours overlap, are apart, or close or open within the step.
 struct Scene {
   Column<Disc<double>> discs;
   Column<Body> bodies;
@@ -51,7 +51,7 @@ struct Scene {
       bodies.push_back({unit(random), 1e-4, 1e4, 1e10});
       travel.push_back({});
     }
-    // Two blocks of discs; the pair between them belongs to the first, and the last disc is not summed.
+    // Two blocks of discs. The pair between them belongs to the first block. The last disc is not summed.
     const int middle = n / 2 + 1;
     pairs.lay_out({material(1e8, 2.5e7, 0.215, 0.3, 0.5)}, {middle, n - middle},
                   {law.memories(), law.constants(), rules.books ? 2 + law.books() : 0});
@@ -77,7 +77,7 @@ struct Scene {
     Fastest fastest;
     PairColumns columns = pairs.columns(slots.data());
     for (int block = 0; block < slots.blocks(); block++) {
-      columns.ahead = block ? Ahead{discs.data(), bodies.data()} : Ahead{}; // both loops
+      columns.ahead = block ? Ahead{discs.data(), bodies.data()} : Ahead{}; // with and without prefetching
       for (int s = pairs.first_segment[block]; s < pairs.first_segment[block + 1]; s++)
         kernels.forces(discs.data(), columns, pairs.segments[s].material, pairs.segments[s].begin,
                        pairs.segments[s].end, DT);
@@ -121,7 +121,8 @@ void plain_forces(const Disc<double> *discs, const PairColumns &p, const Materia
   }
 }
 
-// All discs of a block, whose slots lie in their order, one value at a time.
+// Sums the forces on all discs of a block, whose slots are in the order of the discs, and moves the discs: one value at
+// a time.
 void plain_advance(const SlotBlock &block, Disc<double> *discs, Body *bodies, const StepRule &step, Fastest &,
                    Travel *travel) {
   const Forces<double> *slot = block.slots;
@@ -162,7 +163,7 @@ Kernels plain(const ContactRules &rules) {
   return {forces, nullptr, nullptr, nullptr, plain_advance};
 }
 
-// Of all laws there are.
+// The rules of all laws.
 std::vector<ContactRules> all_rules() {
   std::vector<ContactRules> all;
   for (int accumulation = 0; accumulation < ACCUMULATIONS; accumulation++)

@@ -21,9 +21,9 @@ using Discs = std::vector<GrainShape::Member>;
 const double SQRT3 = std::sqrt(3.0);
 
 // --- an independent integration: strips ------------------------------------------------------------
-// Along a line of constant x the union is a set of intervals in y, so each moment is an integral over x. Between the
-// x where a disc begins or ends or two rims cross, the integrand is smooth but for square roots at the ends, which
-// x = middle - half cos(t) takes away: there, Gauss's rule converges exponentially.
+// Along a line of constant x, the union is a set of intervals in y, so each moment is an integral over x. It is divided
+// at the x where a disc begins or ends, or two rims cross. In between, the integrand is smooth except for square roots
+// at the ends. The substitution x = middle - half cos(t) removes these: then Gauss's rule converges exponentially.
 
 struct Node {
   double t, weight;
@@ -96,7 +96,7 @@ Union strips(const Discs &discs, int n) {
   return sum;
 }
 
-// Radius of a shape in the unit of the discs it was made from.
+// Circumscribed radius of a shape, in the unit of the discs it was made from.
 double radius_of(const GrainShape &shape, const Discs &given) { return given[0].r / shape.discs()[0].r; }
 
 void expect_as_by_strips(const Discs &given, double tolerance, const std::string &what) {
@@ -118,7 +118,7 @@ void expect_as_by_strips(const Discs &given, double tolerance, const std::string
   }
 }
 
-// n discs, each touching or overlapping one before.
+// n discs, each of which touches or overlaps an earlier one.
 Discs cluster(int n, unsigned seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> share(0, 1);
@@ -132,7 +132,7 @@ Discs cluster(int n, unsigned seed) {
     try {
       GrainShape accepted(more);
       discs = more;
-    } catch (const std::invalid_argument &) { // inside another one: try again
+    } catch (const std::invalid_argument &) { // one disc inside another: try again
     }
   }
   return discs;
@@ -175,11 +175,12 @@ TEST(GrainShape, OneDisc) {
   }
 }
 
-// Two discs of radius 1 at distance d meet in a chord at c = d/2 = cos a from either centre; s = sin a. A disc without
-// the segment beyond the chord has, about its centre and with x towards the chord,
+// Two discs of radius 1 at distance d meet in a chord at the distance c = d/2 = cos a from either centre; s = sin a.
+// Take from one of them the segment beyond the chord. The rest has, about the centre of the disc and with x towards the
+// chord,
 //   area = pi - a + s c,   integral of x = -2/3 s^3,   of x^2 = (pi - a)/4 + s c (c^2 - s^2)/4,
 //   of y^2 = (pi - a)/4 + s c/4 + s^3 c/6,
-// and the union is two of them.
+// and the union consists of two such parts.
 TEST(GrainShape, TwoDiscsAndTheirLens) {
   for (double d : {0.01, 0.5, 1.0, 1.7, 1.999, 2.0}) {
     const double c = d / 2, s = std::sqrt(1 - c * c), a = std::acos(c);
@@ -218,7 +219,7 @@ TEST(GrainShape, RowOfTouchingDiscs) {
   }
 }
 
-// Slivers: the result is continuous where discs just touch, and where one is all but inside the other.
+// Slivers: the result is continuous where discs just touch, and where one is almost inside the other.
 TEST(GrainShape, ContinuousAtItsLimits) {
   const GrainShape touching({{0, 0, 1}, {2, 0, 1}});
   for (double e : {1e-11, 1e-9, 1e-6}) {
@@ -263,7 +264,8 @@ TEST(GrainShape, PlaceAngleScaleAndOrderOfTheDiscsDoNotMatter) {
   }
 }
 
-// A template may stand anywhere. These coordinates are exact also after the shift, so only round-off may differ.
+// A template may be at any position. These coordinates stay exact after the shift, so the results may differ by
+// round-off only.
 TEST(GrainShape, FarFromTheOrigin) {
   const double unit = std::ldexp(1, -10);
   const Discs near{{0, 0, 1}, {1230 * unit, 100 * unit, 0.75}, {400 * unit, 921 * unit, 0.5}};
@@ -306,18 +308,18 @@ TEST(GrainShape, BadTemplatesAreNamed) {
 
 TEST(GrainShape, TouchingToAFewDigitsIsConnected) {
   EXPECT_EQ(refusal({{0, 0, 1}, {2 + 1e-9, 0, 1}}), "none");
-  EXPECT_EQ(refusal({{-0.866, 0, 0.866}, {0.866, 0, 0.866}, {0, 1.49995, 0.866}}), "none"); // by hand, a hair apart
+  EXPECT_EQ(refusal({{-0.866, 0, 0.866}, {0.866, 0, 0.866}, {0, 1.49995, 0.866}}), "none"); // by hand, a tiny gap
 }
 
 // --- the stability limit ----------------------------------------------------------------------------
-// The limit is that of a packing of like grains. In a lattice of them it can be told exactly: by Bloch's theorem its
+// The limit is that of a packing of equal grains. In a lattice of them the exact limit is known: by Bloch's theorem its
 // motions are waves, and the largest eigenvalue of a wave's 3 x 3 matrix gives the limit 2/sqrt(eigenvalue).
 
 using Complex = std::complex<double>;
 using Matrix = std::array<std::array<Complex, 3>, 3>;
 
-// By powers: (I + M/scale)^(2^6) leaves the largest eigenvalue of M >= 0 with an error of a few percent of the gap;
-// a Rayleigh quotient of its largest column makes that second order.
+// By powers: in (M/trace)^(2^12), from twelve squarings, only the largest eigenvalue of M >= 0 is left. The Rayleigh
+// quotient of a column makes the remaining error one of second order.
 double largest_eigenvalue(const Matrix &m) {
   const double trace = (m[0][0] + m[1][1] + m[2][2]).real();
   Matrix power = m;
@@ -353,13 +355,13 @@ double largest_eigenvalue(const Matrix &m) {
 }
 
 struct Site {
-  int i, j; // of the triangular lattice of discs of radius 1
+  int i, j; // indices in the triangular lattice of discs of radius 1
 
   double x() const { return 2 * i + j; }
   double y() const { return SQRT3 * j; }
 };
 
-// A clump that tiles the triangular lattice by the two translations.
+// A clump that tiles the triangular lattice when it is repeated by the two translations.
 struct Tiling {
   std::string name;
   std::vector<Site> sites;
@@ -394,7 +396,8 @@ double lattice_eigenvalue(const Tiling &tiling, double kn, double ks) {
     inertia += (std::pow(s.x() - cx, 2) + std::pow(s.y() - cy, 2)) / n;
   const double scale[3] = {1 / std::sqrt(n), 1 / std::sqrt(n), 1 / std::sqrt(n * inertia)};
 
-  // What each contact sees of the motion of the two grains, along n and t, and how many translations lie between them.
+  // Per contact: its motion along n and t for unit motions of its two grains, and how many translations lie between
+  // them.
   struct Contact {
     double own[2][3], other[2][3];
     int u, v;
@@ -426,7 +429,7 @@ double lattice_eigenvalue(const Tiling &tiling, double kn, double ks) {
       }
 
   double largest = 0;
-  const int waves = 24; // has the edges and corners of the zone, 1/2 and 1/3 of a turn
+  const int waves = 24; // 24: includes the edges and corners of the Brillouin zone, phases of 1/2 and 1/3 of a turn
   const double stiffness[2] = {kn, ks};
   for (int p = 0; p < waves; p++)
     for (int q = 0; q < waves; q++) {
@@ -462,7 +465,8 @@ TEST(StepLimit, LatticeOfDiscs) {
   EXPECT_NEAR(eigenvalue_of_the_limit(TILINGS[0], 1, 1), 24, 1e-9);
 }
 
-// On the safe side in every lattice of clumps, by a third in the eigenvalue at most: 15 % of the step.
+// The limit is on the safe side in every lattice of clumps: its eigenvalue is too large by a third at most, the step
+// too small by 15 %.
 TEST(StepLimit, LatticesOfClumps) {
   for (const Tiling &tiling : TILINGS)
     for (double ks : {0.0, 0.1, 0.25, 0.5, 1.0}) {
@@ -472,9 +476,10 @@ TEST(StepLimit, LatticesOfClumps) {
     }
 }
 
-// A disc has six contacts in its lattice, two touching ones have 10, three have 12. For these, with the middle of the
-// grain at 2/sqrt(3) from each disc's and the contacts of a disc at 30 and 90 degrees to either side of that direction,
-// the squared levers are 4/3 (sin^2 30 + sin^2 90) 2 and ((1 + 2/sqrt(3) cos 30)^2 + 1) 2.
+// A disc has six contacts in its lattice; a grain of two touching discs has 10, one of three has 12. Lever arms of
+// three discs: the centre of the grain is at 2/sqrt(3) from that of each disc. The contacts of a disc lie at 30 and 90
+// degrees on either side of the direction away from that centre. So per disc the squared levers are 4/3 (sin^2 30 +
+// sin^2 90) 2 and ((1 + 2/sqrt(3) cos 30)^2 + 1) 2.
 TEST(StepLimit, NeighboursAroundAGrain) {
   for (const Tiling &tiling : TILINGS) {
     const double neighbours[] = {6, 10, 12, 14, 18, 18};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The skin that costs least, against a search for the least of the formula in the header.
+// The cheapest skin, compared with other skins in the formula of the header.
 #include "core/list_skin.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,8 @@ using cdem::cheapest_skin;
 
 namespace {
 
-// Up to a factor: a rebuild is as dear as so many pairs of a step, 10 a disc and 16 a pair that touches.
+// The cost of a step in units of one pair: a rebuild costs as much as 10 pairs for every disc and 16 for every pair
+// that touches.
 double cost(double discs, double touching, double per_metre, double speed, double skin) {
   return touching + per_metre * skin + (10 * discs + 16 * touching) * 2 * speed / skin;
 }

@@ -12,10 +12,13 @@ using namespace cdem;
 
 namespace {
 
-// Largest amount of a root of z (z-1)^2 + alpha z^2 + beta z (z-1) + beta w/2 (z-1)^2: the growth a step of a mode with
-// alpha = k dt^2/m, beta = c dt/m, whose dashpot takes the half step's velocity carried forward by w dt/2. (With x, v
-// and the last acceleration as the state of x'' = -(k x + c v)/m in the scheme of fix cdem/integrate.) Roots by Durand
-// and Kerner.
+// Growth per step of a mode with alpha = k dt^2/m and beta = c dt/m, whose dashpot takes the velocity of the half step,
+// carried forward by w dt/2: the largest absolute value of a root of
+//
+//   z (z-1)^2 + alpha z^2 + beta z (z-1) + beta w/2 (z-1)^2.
+//
+// This follows from x'' = -(k x + c v)/m in the scheme of fix cdem/integrate, with x, v and the last acceleration as
+// the state. The roots are found by the method of Durand and Kerner.
 double growth(double alpha, double beta, double w) {
   using Complex = std::complex<double>;
   const double g = beta * w / 2, c2 = alpha + beta + g - 2, c1 = 1 - beta - 2 * g, c0 = g;
@@ -51,7 +54,8 @@ TEST(Mode, TheLimitSeparatesDecayFromGrowth) {
   }
 }
 
-// The weight is chosen for the stiffest mode; softer modes of the same kind have less stiffness and damping alike.
+// The weight is chosen for the stiffest mode. Softer modes of the same kind have less stiffness, and less damping in
+// the same proportion.
 TEST(Mode, ThePredictionIsStableForAllSofterModesToo) {
   for (const Mode &m : modes())
     for (double fraction = 0.02; fraction < 1; fraction += 0.02) {
@@ -85,7 +89,7 @@ TEST(StepLimit, OfADiscIsThatOfTheTriangularLattice) {
   EXPECT_LT(limit(kn, ks, h), limit(kn, ks, 0));
 }
 
-// Six neighbours that all turn the other way: 12 k_r theta on each.
+// Six neighbours that all turn in the opposite direction: a torque of 12 k_r theta on each disc.
 TEST(StepLimit, KnowsWhatResistsTurningOnEachOther) {
   const double stiffness = 1e3, m = 3e-4, r = 2e-3;
   Resistance added;
@@ -96,7 +100,7 @@ TEST(StepLimit, KnowsWhatResistsTurningOnEachOther) {
 
 TEST(StepLimit, ALargerInertiaTurnsMoreSlowly) {
   AmongItsLike grain = disc_among_its_like(material(1e8, 1e8, 0, 0, 0.5)), heavy = grain;
-  heavy.inertia = 2 * grain.inertia; // turning decides as long as k_s = k_n
+  heavy.inertia = 2 * grain.inertia; // with k_s = k_n the modes of turning have the lowest limit
   EXPECT_DOUBLE_EQ(step_limit(heavy), std::sqrt(2.0) * step_limit(grain));
 }
 

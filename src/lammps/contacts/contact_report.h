@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the contacts of the last step are, for output: looks at the list of pairs and changes nothing.
+// The contacts of the last step, for output. Reads the list of pairs and changes nothing.
 #pragma once
 
 #include "contacts/disc_pair_list.h"
@@ -16,8 +16,8 @@ class ContactReport : protected Pointers {
 public:
   ContactReport(LAMMPS *lmp, const DiscPairList &of) : Pointers(lmp), list(of) {}
 
-  // A contact of the last step. t = n turned by +90 degrees; the force on disc a is fn n + ft t. One that opened within
-  // the step is still there, with what is left of its forces and an overlap below zero.
+  // A contact of the last step (m, N). t = n turned by +90 degrees; the force on disc a is fn n + ft t. A contact that
+  // opened within the step is included, with the part of its forces that still acts and an overlap below zero.
   struct Contact {
     tagint tag_a, tag_b;
     int disc_a, disc_b;
@@ -26,7 +26,7 @@ public:
     double nx, ny; // from b to a
     double overlap;
     bool sliding;
-    bool mine;                                             // of the ranks that see this contact, this one counts it
+    bool mine;                                             // whether this rank counts it, as exactly one does
     std::array<double, 1 + cdem::MOST_NUMBERS> remembered; // see LawTable::remembered
   };
   std::vector<Contact> contacts() const;
@@ -38,16 +38,17 @@ public:
   };
   std::vector<DiscPlace> discs() const;
 
-  // Of the contacts that this rank counts (J).
+  // Energy of the contacts that this rank counts (J).
   cdem::LawTable::Energy energy() const;
 
-  // Of the contacts of own grain i with the grain that is j, or its image (J, N); `pull` is fn over the distance.
+  // Sums over the contacts of own grain i with grain j, or with an image of j: energy (J), forces (N); `pull` is fn
+  // over the distance of the discs (N/m).
   struct OfPair {
     double energy, pull, fn, ft, es;
   };
   OfPair of_pair(int i, int j) const;
 
-  // Calls visit(grain, grain, energy, force on the first) for all contacts that act.
+  // Calls visit(grain, grain, energy (J), force on the first (N)) for all contacts that act.
   template <class Visit> void for_each_acting(bool with_energy, Visit visit) const {
     list.pairs.for_each([&](int k, const cdem::Material &m) {
       if (!list.acts(k))

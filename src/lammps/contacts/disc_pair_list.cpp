@@ -77,15 +77,15 @@ void DiscPairList::forces() {
   }
 }
 
-// For all that looks at single contacts.
+// Keeps the force of every pair, for code that looks at single contacts.
 void DiscPairList::keep_forces(int block) {
   for (int s = pairs.first_segment[block]; s < pairs.first_segment[block + 1]; s++)
     for (int k = pairs.segments[s].begin; k < pairs.segments[s].end; k++)
       pairs.force[k] = slots.of_pair(pairs, k);
 }
 
-// A pair belongs to the block of its lower row. So once the pairs of a block are done, so are all pairs of its grains,
-// and these can be moved while their forces are still in the cache: later blocks don't look at them.
+// A pair belongs to the block of its lower row, so later blocks have no pairs with the grains of this one. Once the
+// pairs of a block are done, its grains can be moved, while their forces are still in the cache.
 void DiscPairList::forces_and_advance(const cdem::StepRule &step, const std::vector<int> &felt, cdem::Fastest &fastest,
                                       cdem::Travel *travel) {
   auto wall = felt.begin();
@@ -112,13 +112,13 @@ double DiscPairList::room() const {
   for (int i = 0; i < atom->nlocal; i++) {
     const double moved = neighbours_built_at[i].moved(rows.of_grain(i));
     if (!std::isfinite(moved))
-      return -INFINITY; // before the list is rebuilt, the guard says which atom it is
+      return -INFINITY; // then the list is rebuilt, but before that the guard ends the run and names the atom
     most = std::max(most, moved);
   }
   return 0.5 * neighbor->skin - most;
 }
 
-// How far any point of a grain is from where it was when the list of disc pairs was built.
+// Bound on how far any point of a grain has moved since the list of disc pairs was built (m).
 double DiscPairList::most_moved() const {
   double most = 0;
   for (std::size_t i = 0; i < discs_built_at.size(); i++) {
@@ -132,7 +132,7 @@ double DiscPairList::most_moved() const {
 
 // How far the discs have moved is measured only when the bound on it is used up.
 void DiscPairList::refresh(double moved) {
-  constexpr double LEAST = 0.05; // of the skin: with less left it is not worth keeping
+  constexpr double LEAST = 0.05; // of the skin: with less room left, the list is rebuilt
   room_left -= moved;
   if (room_left > 0)
     return;
@@ -187,7 +187,7 @@ void DiscPairList::build() {
   built_in_step = update->ntimestep;
 }
 
-// Of any own grain.
+// Largest number of pairs of an own grain.
 int DiscPairList::most_pairs() const {
   int most = 0;
   for (int i = 0; i < atom->nlocal; i++) {
@@ -204,7 +204,7 @@ int DiscPairList::most_pairs() const {
 // skin.
 void DiscPairList::choose_skin() {
   constexpr double LEAST = 0.01, SAFETY = 8;
-  constexpr int LOOKED_AT = 256; // grains, whose neighbours tell enough
+  constexpr int LOOKED_AT = 256; // grains, enough for an estimate
   const double largest = neighbor->skin;
   const double step = update->dt * rows.fastest(atom->nlocal + atom->nghost).speed(largest_reach());
   const int every = std::max(1, neighbours->inum / LOOKED_AT);
@@ -219,7 +219,7 @@ void DiscPairList::choose_skin() {
   skin = std::min(std::max({cheapest, LEAST * largest, SAFETY * step}), largest);
 }
 
-// Small enough that a block's forces stay in the cache.
+// Blocks are so small that the forces of a block stay in the cache.
 void DiscPairList::divide_into_blocks() {
   constexpr int ROWS = 512;
   block_starts.assign(1, 0);
@@ -229,8 +229,8 @@ void DiscPairList::divide_into_blocks() {
   block_starts.push_back(atom->nlocal);
 }
 
-// Calls visit(row, row, square of their distance) for all pairs of discs that may touch before the next rebuild, of
-// grain i and those that LAMMPS lists as its neighbours.
+// Calls visit(row, row, square of their distance) for all pairs of discs of grain i and of its neighbours in LAMMPS's
+// list that may touch before the next rebuild.
 template <class Visit> void DiscPairList::for_each_candidate(int i, Visit visit) const {
   for (int jj = 0; jj < neighbours->numneigh[i]; jj++) {
     const int j = neighbours->firstneigh[i][jj] & NEIGHMASK;
@@ -253,7 +253,7 @@ void DiscPairList::find_pairs() {
   for (const auto &row : *coefficients)
     for (const cdem::Coefficients &of_types : row)
       by_types.push_back(of_types.material);
-  int lower = -1, block = 0; // the last one's
+  int lower = -1, block = 0; // of the pair before
   auto segment_of = [&](int i, int j) {
     if (std::min(i, j) != lower)
       block = cdem::block_of(block_starts, lower = std::min(i, j));
@@ -317,7 +317,7 @@ cdem::TwoGrains::Grain DiscPairList::grain_of(int row) const {
 }
 
 void DiscPairList::renew_constants() {
-  const bool running = update->whichflag != 0; // else atoms may have come and gone since the list was built
+  const bool running = update->whichflag != 0; // else atoms may have been added or removed since the list was built
   if (running && is_of_run)
     set_constants();
 }
@@ -362,7 +362,6 @@ double DiscPairList::overlap(int k) const {
 // A pair across a border is on two ranks (or twice on one, if periodic): the owner of disc a counts it.
 bool DiscPairList::counts(int k) const { return rows.grain(pairs.a(k)) < block_starts.back(); }
 
-// Also in the step after it opened, in which its forces may have a share left.
 bool DiscPairList::acts(int k) const {
   const auto [fx, fy] = pairs.force[k];
   return overlap(k) > 0 || fx != 0 || fy != 0;
@@ -403,7 +402,8 @@ void DiscPairList::book_losses() {
   });
 }
 
-// Grains may have come and gone since the list was built: only what was noted then is of use here.
+// Grains may have arrived or left since the list was built. So this uses only what was stored then: the atoms' arrays
+// may be those of other grains.
 void DiscPairList::copy_history_to_grains() {
   if (!has_history)
     return;

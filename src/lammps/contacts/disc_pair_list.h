@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The pairs of discs that may touch, drawn from LAMMPS's list of grain pairs, and the steps that are made on them. Each
-// rank draws its own list anew, without any communication, when discs may have come within reach that are not in it.
+// The list of disc pairs that may touch, made from LAMMPS's list of grain pairs, and the forces of these pairs. Each
+// rank rebuilds its own list, without any communication, when discs that are not in it may have come within reach.
 #pragma once
 
 #include "contacts/fix_cdem_history.h"
@@ -23,45 +23,47 @@ class Pair;
 
 class DiscPairList : protected Pointers, public ContactList {
 public:
-  // `pair` sends the rows of own grains to their ghosts, by rows.pack() and rows.unpack().
+  // `pair` sends the rows of own grains (see GrainRows) to their ghosts, by rows.pack() and rows.unpack().
   DiscPairList(LAMMPS *lmp, Pair *pair) : Pointers(lmp), rows(lmp), carrier(pair) {}
 
-  // By the types of two atoms; row 0 and column 0 have no meaning.
+  // Coefficients by the types of two atoms, from 1 on; index 0 is not used.
   using ByTypes = std::vector<std::vector<cdem::Coefficients>>;
   void init(const cdem::LawTable &, const ByTypes &, const std::string &instructions, FixCDEMHistory *);
 
-  void exchange_ghosts(); // the rows of ghosts, from their owners
-  // LAMMPS has a new list, and the rows are filled.
+  void exchange_ghosts(); // gets the rows of ghosts from their owners
+  // To be called when LAMMPS has rebuilt its list and the rows are filled.
   void rebuild(const NeighList *);
-  // To be called before the forces if rows have moved, no point of a grain by more than this since the last call (m).
+  // To be called before the forces if rows have moved: rebuilds the list if necessary. `moved`: no point of a grain has
+  // moved further since the last call (m); without it, the motion is measured.
   void refresh(double moved);
   void refresh() { refresh(room_left); }
-  // To be called when the time step has changed: the dashpots go with it.
+  // To be called when the time step has changed: the scale of the dashpots depends on it.
   void renew_constants();
 
-  // Adds to f and torque of own grains.
+  // Computes the contact forces and adds them to f and torque of own grains.
   void forces();
-  // The same, but moves the rows of own grains; f of these own walls only. Adds to what they have travelled, unless
-  // null.
+  // Computes the contact forces and moves the rows of own grains by a step. Sets f of the own walls in `felt` only.
+  // Adds to the path of each grain, unless the last argument is null.
   void forces_and_advance(const cdem::StepRule &, const std::vector<int> &felt, cdem::Fastest &, cdem::Travel *);
 
   // How far any grain may still move before LAMMPS's list misses a pair of grains (m); less than 0: it may miss one
   // now.
   double room() const;
-  double largest_reach() const; // of a disc's centre from that of its grain
+  double largest_reach() const; // the largest distance between disc and grain centre, of own grains (m)
 
   void copy_history_to_grains() override;
   void move_history_to_grains() override;
   void close_list() override;
 
-  // Losses of the contacts that this rank counts, to fix cdem/audit if there is one.
+  // Adds the energy losses of the contacts that this rank counts to fix cdem/audit, if there is one.
   void book_losses();
   bool keeps_books() const { return booking; }
 
-  // --- of pair k, for all that looks at single contacts ---
-  double mass(int k) const; // the reduced one of the two grains, or that of the grain that meets a wall
+  // --- of pair k, for code that looks at single contacts ---
+  double mass(int k) const; // reduced mass of the two grains, or that of the grain against a wall (kg)
   double overlap(int k) const;
-  bool acts(int k) const;   // also in the step after it opened, in which its forces may have a share left
+  // Whether its discs overlap, or still exert a force: a part of it may act on after the contact opened within a step.
+  bool acts(int k) const;
   bool counts(int k) const; // whether this rank is the one that counts it
   const cdem::Material &material(int k) const;
   cdem::LawTable::Energy energy(int k, const cdem::Material &) const;
@@ -92,8 +94,8 @@ private:
   void keep_forces(int block);
   void finish_step_in_books();
 
-  // Where a grain was when LAMMPS's list of grain pairs was built, and this list of disc pairs. The latter has a
-  // smaller skin and also ages when a grain turns.
+  // Where a grain was when a list was built: LAMMPS's list of grain pairs, or this list of disc pairs, which has a
+  // smaller skin and must also be rebuilt when grains turn.
   struct Place {
     double x, y;
     double moved(const cdem::Disc<double> &) const;
@@ -111,11 +113,11 @@ private:
 
   std::vector<Place> neighbours_built_at; // of own grains
   std::vector<Place> discs_built_at;      // of all grains
-  std::vector<double> angle_built_at;     // of all grains, empty unless clumps
-  double skin = 0;                        // discs no further apart than this are in the list (m)
-  double room_left = 0;                   // at least so far may any point of a grain still move (m)
-  double speed = -1;                      // at which the farthest got away from the last list (m a step), -1: unknown
-  bigint built_in_step = 0;               // the list
+  std::vector<double> angle_built_at;     // of all grains; empty if all are single discs
+  double skin = 0;                        // pairs with a gap up to this are in the list (m)
+  double room_left = 0;                   // any point of a grain may still move at least so far (m)
+  double speed = -1;                      // largest distance from the last list, over its steps (m); -1: unknown
+  bigint built_in_step = 0;               // when the list was built
   bool is_of_run = false;                 // whether it was built in this run
 
   std::vector<tagint> listed;    // ids of all grains, ghosts too, when the list of disc pairs was built
@@ -123,10 +125,10 @@ private:
   struct Found {
     int p, q, segment;
   };
-  std::vector<Found> found; // pairs of rows for the list, those of the lower id first
+  std::vector<Found> found; // pairs of rows for the list; p is of the grain of the lower id
   cdem::Kernels kernels{};
-  bool fetches_ahead = false; // see core/disc_pairs.h
-  bool has_history = false;   // whether the histories are here
+  bool fetches_ahead = false; // see Ahead in core/disc_pairs.h
+  bool has_history = false;   // whether the list has the present histories, not the grains
 };
 
 } // namespace LAMMPS_NS

@@ -22,13 +22,13 @@ namespace {
 constexpr tagint NOBODY = 0;
 constexpr int VERSION = 1; // of what restart files keep
 
-// The names of the numbers, in restart files.
+// The names of the remembered numbers, in restart files.
 struct Names {
   int count;
   char name[1 + cdem::MOST_NUMBERS][16];
 };
 
-static_assert(cdem::GrainShape::MOST_DISCS <= SHRT_MAX); // what a Contact has room for
+static_assert(cdem::GrainShape::MOST_DISCS <= SHRT_MAX); // a Contact stores the index of a disc as short
 } // namespace
 
 FixCDEMHistory *FixCDEMHistory::find(LAMMPS *lmp) { return Shearbox::find_fix<FixCDEMHistory>(lmp); }
@@ -129,7 +129,8 @@ bool FixCDEMHistory::has_new_ids() const {
   return all;
 }
 
-// Both grains remember a contact, so each knows its own id in it. A partner that is not here is no neighbour any more.
+// Grains may have new ids. Each grain knows its own old id (`owner`), and ghosts tell theirs: so the ids of partners
+// can be renewed. A partner that is not on this rank, also not as a ghost, is not a neighbour any more.
 void FixCDEMHistory::setup_pre_neighbor() {
   if (!has_new_ids())
     return;
@@ -150,7 +151,8 @@ void FixCDEMHistory::setup_pre_neighbor() {
   }
 }
 
-// The grain of the lower id is another one now.
+// Of the two grains of contact k, the other one has the lower id now: numbers that depend on the order change their
+// sign.
 void FixCDEMHistory::swap_sides(int k) {
   for (std::size_t m = 0; m < names.size(); m++)
     if (names[m].odd)
@@ -168,7 +170,7 @@ void FixCDEMHistory::unpack_forward_comm(int n, int first_ghost, double *buf) {
     owner[first_ghost + k] = (tagint)ubuf(buf[k]).i;
 }
 
-// Called before the grains are packed.
+// LAMMPS calls this before it packs the grains.
 void FixCDEMHistory::write_restart(FILE *fp) {
   copy_from_list();
   if (comm->me != 0)

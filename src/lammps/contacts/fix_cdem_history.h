@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// fix cdem/history: made by pair style cdem, not by the user. Between rebuilds the history of contacts lives in the
-// pair style's list; this fix holds it by grain while that list is rebuilt, when grains migrate, and in restart files.
-// Grains may be given other ids between runs (delete_atoms does so, unless it is told `compress no`, reset_atom_ids
-// too): the history follows.
+// fix cdem/history: made by pair style cdem, not by the user. Between rebuilds the history of contacts (what they
+// remember) is in the pair style's list. This fix holds it by grain while that list is rebuilt, when grains migrate,
+// and in restart files. Grains may get new ids between runs (by reset_atom_ids, or by delete_atoms without `compress
+// no`): the history follows them.
 #pragma once
 
 #include "core/declaration.h"
@@ -15,15 +15,15 @@
 
 namespace LAMMPS_NS {
 
-// Where contacts and their histories are between rebuilds.
+// The list that has the contacts and their histories between rebuilds.
 class ContactList {
 public:
   virtual ~ContactList() = default;
-  // To the grains, by make_room() and add(), of what the list has.
+  // Copies the histories to the grains, by make_room() and add().
   virtual void copy_history_to_grains() = 0;
-  // The same; the list is no longer the place where it is kept.
+  // The same; from then on the grains have the histories, not the list.
   virtual void move_history_to_grains() = 0;
-  // The same, once the atoms have moved on: the list is to be rebuilt.
+  // The same, when atoms have moved and the list is to be rebuilt: also books the energy losses of the step.
   virtual void close_list() = 0;
 };
 
@@ -31,8 +31,8 @@ class FixCDEMHistory : public Fix, public Glides {
 public:
   static constexpr const char *ID = "CDEM_HISTORY";
 
-  // A contact as one of its grains knows it: the other grain, and the disc of either. What it remembers is in the sense
-  // of the pair, whose first disc belongs to the grain of the lower id.
+  // A contact as one of its grains stores it: the id of the other grain, and the index of the disc in either. What it
+  // remembers is always said of the pair in which the grain of the lower id comes first.
   struct Contact {
     tagint partner;
     short own_disc, other_disc;
@@ -47,15 +47,17 @@ public:
   FixCDEMHistory(LAMMPS *, int, char **);
   ~FixCDEMHistory() override;
 
-  // Forgets all and makes room for so many contacts of each grain, of these ids, which are added then.
+  // Forgets all contacts, and makes room for count[i] contacts of each grain i, whose id is ids[i]. They are then given
+  // by add().
   void make_room(const std::vector<int> &count, const std::vector<tagint> &ids);
-  // No grain will have more contacts than this, until this is called again.
+  // No grain will have more than `most` contacts until the next call.
   void expect_at_most(int most);
   void add(int i, const Contact &, const double *remembered);
-  // What the contact remembers, or null.
+  // The numbers that the contact remembers, or null.
   const double *find(int i, const Contact &) const;
 
-  // The numbers that contacts remember from now on. Those known by the same name before are kept, others begin at 0.
+  // Declares the numbers that contacts remember from now on. Those that had the same name before are kept, others begin
+  // at 0.
   void remember(const std::vector<cdem::Remembered> &);
 
   int setmask() override;
@@ -78,7 +80,7 @@ public:
   int size_restart(int) override;
   int maxsize_restart() override;
 
-  // From the list, if that has it: a copy, or all from now on.
+  // Takes the histories from the list, if it has them: as a copy, or for good.
   void copy_from_list();
   void take_from_list();
 
@@ -91,13 +93,13 @@ private:
   void agree_on_room();
   bool has_new_ids() const;
   void swap_sides(int k);
-  // Numbers that a grain with so many contacts is packed into.
+  // How many numbers the contacts of a grain, n of them, are packed into.
   int packed_size(int n) const { return 2 + (3 + int(names.size())) * n; }
 
   std::vector<int> first, count; // per atom, into contacts
-  std::vector<tagint> owner;     // the atom's id as its contacts know it
-  std::vector<Contact> contacts; // arriving grains append; make_room() starts afresh
-  std::vector<double> numbers;   // of each contact, one after the other
+  std::vector<tagint> owner;     // id of the atom when its contacts were stored
+  std::vector<Contact> contacts; // grains that arrive append theirs; make_room() clears all
+  std::vector<double> numbers;   // what each contact remembers, contact by contact
   struct Number {
     std::string name;
     bool odd; // see core/declaration.h

@@ -24,7 +24,8 @@ std::string joined(const std::vector<std::string> &words, const char *between) {
   return fmt::format("{}", fmt::join(words, between));
 }
 
-// All parameters in the order of Coefficients::given, as addition.name, or name of the contact law's own.
+// Names of all parameters, in the order of Coefficients::given: those of the contact law itself by name, others as
+// addition.name.
 std::vector<std::string> parameter_names() {
   std::vector<std::string> names;
   for (const auto &[group, parameters] : cdem::parameter_groups())
@@ -41,7 +42,7 @@ std::vector<std::string> addition_names() {
   return names;
 }
 
-// 0 if there is none of this name.
+// The bit of an addition in ContactRules::additions; 0 if there is none of this name.
 unsigned bit_of_addition(const std::string &name) {
   const std::vector<std::string> all = addition_names();
   const auto found = std::find(all.begin(), all.end(), name);
@@ -177,7 +178,7 @@ void LawChoice::refuse_file(const std::string &why) const {
 
 void LawChoice::take_text(const std::string &all, int **is_set) {
   const std::vector<std::string> laws = cdem::accumulation_names(), known = parameter_names();
-  std::vector<std::size_t> place; // of the parameters in the file
+  std::vector<std::size_t> place; // index in `known` of each parameter in the file
   std::istringstream lines(all);
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What pair_style and pair_coeff say about the contact law, and restart files keep.
+// The contact law, as pair_style and pair_coeff give it and restart files keep it.
 #pragma once
 
 #include "contacts/disc_pair_list.h"
@@ -23,10 +23,10 @@ public:
 
   cdem::LawTable table() const { return cdem::LawTable(rules); }
 
-  // Text with the names of all parameters in it, so that a file of another version is never read as something else.
-  // `is_set`: whether pair_coeff gave the coefficients of two types.
+  // Writes text with the names of all parameters in it, so that a file of another version is never misread. `is_set`:
+  // whether pair_coeff gave the coefficients of two types.
   void write(FILE *, int **is_set) const;
-  void read(FILE *, int **is_set); // all ranks together; the file is the first one's
+  void read(FILE *, int **is_set); // all ranks together; the first one reads the file
 
   std::string instructions;
   DiscPairList::ByTypes coefficients; // by the types of two atoms

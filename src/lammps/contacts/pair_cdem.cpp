@@ -95,7 +95,8 @@ void PairCDEM::check_setting() const {
     error->all(FLERR, "Pair style cdem: newton is on, must be off ('newton off' before the box is made)");
   if (!atom->sphere_flag)
     error->all(FLERR, "Pair style cdem needs atom_style sphere");
-  if (strcmp(atom->atom_style, "sphere") == 0 && !atom->avec->comm_x_only) // that is how it shows
+  // LAMMPS unsets comm_x_only if radii can change.
+  if (strcmp(atom->atom_style, "sphere") == 0 && !atom->avec->comm_x_only)
     error->all(FLERR, "Pair style cdem: atom_style sphere 1 must be sphere or sphere 0: radii cannot change in a run");
   if (!atom->tag_enable)
     error->all(FLERR, "Pair style cdem: atom_modify id no must be yes: contacts are remembered by the ids of grains");
@@ -104,11 +105,11 @@ void PairCDEM::check_setting() const {
   if (!grains || !grains->are_moved())
     error->all(FLERR, "Pair style cdem needs a fix cdem/integrate: atoms outside its group are walls");
   if (update->whichflag == 2)
-    error->all(FLERR, "Pair style cdem: minimize has no steps of time to follow the contacts in; use run, with drag");
+    error->all(FLERR, "Pair style cdem: minimize makes no time steps, which contacts need; use run, with drag");
   if (!(neighbor->skin > 0))
     error->all(FLERR,
-               "Pair style cdem: the skin of the neighbour list is {}, must be positive: a contact acts on in the "
-               "step in which it opens",
+               "Pair style cdem: the skin of the neighbour list is {}, must be positive: a contact still acts "
+               "in the step in which it opens",
                neighbor->skin);
 }
 
@@ -122,7 +123,7 @@ void PairCDEM::check_atoms() const {
     if (!(atom->rmass[i] > 0))
       error->one(FLERR, "Pair style cdem: atom {} has mass {}, must be positive", atom->tag[i], atom->rmass[i]);
     if (atom->x[i][2] != 0)
-      error->one(FLERR, "Pair style cdem: atom {} is at z = {}, must be 0: LAMMPS takes distances in space",
+      error->one(FLERR, "Pair style cdem: atom {} is at z = {}, must be 0: LAMMPS takes distances in three dimensions",
                  atom->tag[i], atom->x[i][2]);
     if (radius > largest)
       error->one(FLERR,
@@ -164,14 +165,14 @@ double PairCDEM::atom2cut(int i) { return 2 * atom->radius[i]; }
 
 double PairCDEM::radii2cut(double r1, double r2) { return r1 + r2; }
 
-// Two grains have one history for each pair of their discs, so they may not touch on both sides of a period.
+// Two grains have one history for each pair of their discs, so they must not touch twice, on both sides of a period.
 void PairCDEM::check_periods() const {
   const double needed = 4 * *std::max_element(largest_radius.begin(), largest_radius.end());
   for (int k = 0; k < 2; k++)
     if (domain->periodicity[k] && domain->prd[k] < needed)
       error->all(FLERR,
                  "Pair style cdem: the box is periodic over {} m in {}, must be {} m or more (two diameters of the "
-                 "largest grain): two grains would touch on both sides",
+                 "largest grain): two grains could touch on both sides",
                  domain->prd[k], k ? "y" : "x", needed);
 }
 
@@ -208,7 +209,7 @@ int PairCDEM::pack_forward_comm(int n, int *list, double *buf, int pbc_flag, int
 
 void PairCDEM::unpack_forward_comm(int n, int first, double *buf) { contacts.rows.unpack(n, first, buf); }
 
-// Energy and virial, with the branch vector from grain centre to grain centre.
+// Adds energy and virial of the contacts to LAMMPS's sums. The branch vector is from grain centre to grain centre.
 void PairCDEM::tally() {
   report.for_each_acting(eflag_either, [this](int i, int j, double energy, const cdem::PairForce &f) {
     const double *const xi = atom->x[i], *const xj = atom->x[j];

@@ -2,24 +2,32 @@
 // pair_style cdem law direct|incremental [limit_damping yes|no] [instructions avx512|avx2|baseline]
 // pair_coeff I J kn ks hn hs phi [rolling mu_r h_r] [cohesion F_c]
 //
-// Contact law of discs, and of grains made of discs (fix cdem/shape), in the plane with accumulated tangential force,
-// after Matsunae, Seguro, Yoshida (2012), eqs. 2 and 3; see core/contact_law.h for the formulas.
+// Contact law of discs, and of grains made of discs (fix cdem/shape), in two dimensions, with an accumulated tangential
+// force; Matsunae, Seguro, Yoshida (2012), eqs. 2 and 3; see core/contact_law.h for the formulas.
 //
-//   law            direct: normal force from the overlap; incremental: summed from displacement increments (Cundall)
+//   law            direct: normal force from the overlap; incremental: summed from displacement increments (Cundall).
+//                  Must be given
 //   limit_damping  yes: the normal force never pulls; no (default): the dashpot may pull as a contact opens
-//   instructions   instruction set of the loop over the contacts (default: the widest this machine has); avx512 and
-//                  avx2 give the same bits, baseline on x86-64 does not: it has no fused multiply-add
+//   instructions   instruction set of the loop over the contacts (default: the widest of this machine); avx512 and avx2
+//                  give the same bits, baseline on x86-64 does not: it has no fused multiply-add
 //   kn, ks         normal and tangential stiffness, N/m; kn > 0, ks >= 0
-//   hn, hs         damping ratios of the pair, >= 0; the dashpot is 2 h sqrt(m k)
+//   hn, hs         damping ratios of the pair (no unit), >= 0; the dashpot is 2 h sqrt(m k), N s/m
 //   phi            friction angle, degrees, 0 <= phi < 90
-//   rolling        rolling resistance: coefficient mu_r and damping ratio h_r of its dashpot, >= 0; see
-//                  core/laws/rolling_resistance.h. Off by default: contacts of types that do not name it have none
-//   cohesion       constant pull-off force F_c of discs that touch, N, >= 0; see core/laws/cohesion.h. Off by default
+//   rolling        rolling resistance: coefficient mu_r and damping ratio h_r of its dashpot (no unit), >= 0; see
+//                  core/laws/rolling_resistance.h. Contacts of types that do not name it have none (default)
+//   cohesion       constant pull-off force F_c of discs that touch, N, >= 0; see core/laws/cohesion.h. Default: none
 //
 // m is m_i m_j/(m_i + m_j), or m_i against a wall: an atom outside the group of fix cdem/integrate. Walls never act on
-// each other. Needs dimension 2, atom_style sphere (radii cannot change in a run), newton off, comm_modify vel yes, fix
-// cdem/integrate, and units in which force is mass times acceleration: si, cgs, lj, micro or nano.
-// single() and contacts() read the last step and change nothing. eng_vdwl is the elastic energy of the springs.
+// each other.
+//
+// Needs dimension 2, atom_style sphere (radii cannot change in a run), atom ids, newton off, comm_modify vel yes, a
+// skin above 0, fix cdem/integrate, and units in which force is mass times acceleration: si, cgs, lj, micro or nano.
+// Radii and masses must be positive, z must be 0. A periodic box must be two diameters of the largest grain or more.
+// minimize is refused, and so are discs with the same centre. Every pair of types needs a pair_coeff, with I <= J.
+//
+// eng_vdwl is the energy stored in the contacts: in springs and in additions to the law (J). single(), as in compute
+// pair/local, reads the last step and changes nothing: force (N/m: over the distance of the discs), p1 normal and p2
+// tangential force with their dashpots, p3 tangential spring (N), summed over the discs of two grains.
 #pragma once
 
 #include "contacts/contact_report.h"
@@ -39,7 +47,7 @@ class FixCDEMHistory;
 
 class PairCDEM : public Pair {
 public:
-  // The pair style, or an error that `who` needs it.
+  // The pair style. An error says that `who` needs it if there is another one, or none.
   static PairCDEM *needed_by(const std::string &who, LAMMPS *);
 
   explicit PairCDEM(LAMMPS *);
@@ -60,10 +68,10 @@ public:
   double memory_usage() override;
 
   const cdem::Material &material(int itype, int jtype) const { return law.coefficients[itype][jtype].material; }
-  // A grain of one type with its like all around, whose contacts are those with another type.
+  // Atom i surrounded by equal grains, with contacts between its type and `other_type`: for the stability limit.
   cdem::AmongItsLike among_its_like(int i, int other_type) const;
 
-  DiscPairList contacts; // and the rows: what run style verlet/cdem steps alone, while nothing else asks for the atoms
+  DiscPairList contacts; // with the rows of the grains, on which run style verlet/cdem makes its steps
   ContactReport report;
 
 private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// LAMMPS does not look whether its dumps and tables could be written: on a full disk it runs on and ends well. The
-// library's calls of these two functions come here first, and end the program with what the system says.
+// LAMMPS does not check whether its dumps and tables were written: on a full disk it runs on and reports success. The
+// library's calls of these two functions come here first. If one of them fails, the program ends with the message of
+// the system.
 #include <cerrno>
 #include <cstdio>
 #include <cstring>

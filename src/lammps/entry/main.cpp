@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The program lmp_cdem: LAMMPS with its own command line, and the styles of Shearbox there from the start (see
+// The program lmp_cdem: LAMMPS with its own command line, and with the styles of Shearbox known from the start (see
 // own_styles.cpp).
 #include "host/version_check.h"
 
@@ -19,9 +19,9 @@
 
 using namespace LAMMPS_NS;
 
-// The folder of the input file as variable `decks`, unless -var gives it: a deck includes its parts from there, and
-// LAMMPS itself looks for them in the current folder only. It takes no blanks in what it includes; as seen from the
-// current folder there often are none.
+// Sets the variable `decks` to the folder of the input file, unless -var gives it: a deck includes other files from
+// there, while LAMMPS itself looks for them in the current folder only. LAMMPS cannot include from a path with a blank
+// in it; the path relative to the current folder often has none.
 static void set_decks(LAMMPS *lmp, int argc, char **argv) {
   for (int i = 1; i + 1 < argc; i++) {
     const std::string word = argv[i];
@@ -47,7 +47,7 @@ int main(int argc, char **argv) {
     delete lmp;
   } catch (const LAMMPSAbortException &e) { // one rank failed, the others may wait for it
     MPI_Abort(e.universe, EXIT_FAILURE);
-  } catch (const LAMMPSException &) { // all ranks failed together, the message is out
+  } catch (const LAMMPSException &) { // all ranks failed together, the message is printed already
     MPI_Finalize();
     return EXIT_FAILURE;
   } catch (const std::exception &e) {

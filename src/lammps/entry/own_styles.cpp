@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Adds the styles of Shearbox to those of LAMMPS, in a program of its own.
+// Adds the styles of Shearbox to those of LAMMPS in the program lmp_cdem, without the plugin loader.
 #include "entry/styles.h"
 #include "host/version_check.h"
 
@@ -16,7 +16,8 @@
 using namespace LAMMPS_NS;
 
 // LAMMPS calls this after it has made its tables of styles: at the start, and again at every `clear`. The program's
-// definition comes before the library's, so we are called, add our styles, and hand on to the library's.
+// definition takes precedence over the library's, so this one is called. It adds our styles and then calls the
+// library's.
 void LAMMPS::post_create() {
   if (const std::string problem = Shearbox::mismatch(this); !problem.empty())
     throw std::runtime_error(problem);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// cdemplugin.so: checks the LAMMPS that loads it, then takes the styles from cdemstyles.so beside it.
+// cdemplugin.so: checks the LAMMPS that loads it, then takes the styles from cdemstyles.so in the same folder.
 #include "entry/styles.h"
 #include "host/version_check.h"
 
@@ -13,7 +13,7 @@
 
 namespace {
 
-// Reports are for one rank only; the error itself follows when the input file asks for a style that isn't there.
+// Only one rank prints. The run fails later, when the input file asks for a style that is not there.
 void refuse(void *lmp, const std::string &why) {
   if (lammps_extract_setting(lmp, "world_rank") == 0)
     std::fprintf(stderr, "ERROR: plugin refused: %s\n", why.c_str());

@@ -120,7 +120,8 @@ bool CDEMCreate::is_mine(const Disc &disc) const {
   return true;
 }
 
-// Every rank knows all discs, makes its own, and numbers them as if it had made all.
+// Every rank has the list of all discs. It makes those in its own part of the box, and numbers them by their places in
+// the list.
 void CDEMCreate::create(const std::vector<Disc> &discs) {
   tagint largest = 0, offset;
   for (int i = 0; i < atom->nlocal; i++)
@@ -147,7 +148,8 @@ void CDEMCreate::create(const std::vector<Disc> &discs) {
   const bigint expected = atom->natoms + bigint(discs.size()), mine = atom->nlocal;
   MPI_Allreduce(&mine, &atom->natoms, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (atom->natoms != expected)
-    error->all(FLERR, "cdem/create: there are {} atoms now, should be {}: some have no rank", atom->natoms, expected);
+    error->all(FLERR, "cdem/create: there are {} atoms now, should be {}: some lie in the part of no rank",
+               atom->natoms, expected);
   atom->tag_check();
   if (atom->map_style != Atom::MAP_NONE) {
     atom->map_init();

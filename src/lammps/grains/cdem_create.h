@@ -6,11 +6,15 @@
 // diameter D and the mass of that shape. RHO is an areal density, density x thickness (kg/m^2), lengths are in m.
 //
 //   row   N discs, their centres evenly spaced from (X1, Y1) to (X2, Y2), both included
-//   fill  N grains without overlap inside a rectangle, as a loose column for packing. Diameters follow n(d) ~ d^P from
-//         DMIN to DMAX: one from each of N equal shares of the law, in an order given by the seed S > 0. They stand in
-//         rows with random gaps, which are spread over the whole height (see core/fill.h)
+//   fill  N grains without overlap inside a rectangle, as a loose column for packing. Diameters follow the number
+//         density n(d) ~ d^P from DMIN to DMAX: the law is divided into N equal shares, and each gives one grain. The
+//         seed S >= 1 decides their order. They stand in rows with random gaps, spread over the whole height (see
+//         core/fill.h)
 //
-// Atom ids go on from the largest one, in the order of creation. Positions and ids are the same for any number of
+// N >= 1; D, DMIN, DMAX, RHO > 0. Needs a box, dimension 2, atom_style sphere and atom ids. Errors: a centre outside of
+// the box, grains that do not fit into the rectangle.
+//
+// Atom ids continue after the largest one, in the order of creation. Positions and ids are the same for any number of
 // ranks.
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// fix cdem/audit: made by compute cdem/energy with `audit yes`, not by the user. Holds the books of all energy that
-// comes and goes; they are in restart files. Whoever does work or loses energy writes it down: the pair style friction
-// and dashpots, fix cdem/integrate the drag, fixes cdem/lid and cdem/move the work of their walls.
+// fix cdem/audit: made by compute cdem/energy with `audit yes`, not by the user. Has the books: the sums of all work
+// and energy losses, which are also in restart files. Each part of the program adds its own: the pair style those of
+// friction and dashpots, fix cdem/integrate that of drag, fixes cdem/lid and cdem/move the work of their walls.
 #pragma once
 
 #include "host/glides.h"
@@ -12,25 +12,25 @@ namespace LAMMPS_NS {
 
 class FixCDEMAudit : public Fix, public Glides {
 public:
-  // Who knows all energy there is, and opens the books as the first run begins.
+  // Computes the energy of all grains and springs, and opens the books at the start of the first run.
   class Opener {
   public:
     virtual ~Opener() = default;
-    virtual void open_books() = 0; // unless they are open
+    virtual void open_books() = 0; // does nothing if they are open
   };
 
   static constexpr const char *ID = "CDEM_AUDIT";
 
-  // J, this rank's share since the books were opened. The work of walls is that on the grains.
+  // Sums since the books were opened, this rank's part (J). `walls` is the work of the walls on the grains.
   struct Books {
     double friction = 0, dashpots = 0, drag = 0, walls = 0;
   };
-  // What was there when the books were opened (J): of the grains and springs, and sum of m g x. Of all ranks.
+  // When the books were opened, over all ranks (J): energy of the grains and springs; sum of m g.x.
   struct Opening {
     double energy = 0, gravity = 0;
   };
 
-  // The fix of this style, or null: then nobody keeps books.
+  // The fix of this style, or null if there is no audit.
   static FixCDEMAudit *find(LAMMPS *);
 
   FixCDEMAudit(LAMMPS *, int, char **);

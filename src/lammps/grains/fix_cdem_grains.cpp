@@ -83,7 +83,7 @@ void FixCDEMGrains::copy_arrays(int i, int j, int) { std::copy_n(state[i], int(N
 void FixCDEMGrains::set_arrays(int i) {
   std::fill_n(state[i], int(NCOLUMNS), 0.0);
   state[i][ANGLE] = UNKNOWN;
-  const bool running = update->whichflag != 0; // no setup() follows, and the atom had no step to be accelerated in
+  const bool running = update->whichflag != 0; // then no setup() follows, and a new atom starts with acceleration 0
   if (!running)
     state[i][AX] = UNKNOWN;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// fix cdem/grains: made by fix cdem/integrate, not by the user. What a grain is beside LAMMPS's own arrays, in one
-// place: which atoms are grains and which are walls, the angle and the acceleration of each, its inertia, and how the
-// time is stepped. It stays when fix cdem/integrate is defined anew, so grains keep their angles, and travels with the
-// grains and in restart files.
+// fix cdem/grains: made by fix cdem/integrate, not by the user. Has the state of the grains that LAMMPS's own arrays
+// lack: which atoms are grains and which are walls, angle and acceleration of each, its inertia, and how a time step is
+// made. The fix stays when fix cdem/integrate is defined anew, so grains keep their angles. The state migrates with the
+// grains and is in restart files.
 #pragma once
 
 #include "core/disc_motion.h"
@@ -28,7 +28,7 @@ public:
   ~FixCDEMGrains() override;
 
   // --- who moves: the group of fix cdem/integrate; all other atoms are walls ---
-  // `mover` shows the states as its per-atom array.
+  // `mover` is fix cdem/integrate, which outputs the states as its per-atom array.
   void begin_moving(Fix *mover);
   void end_moving() { mover = nullptr; }
   bool are_moved() const { return mover; }
@@ -43,7 +43,7 @@ public:
   // Turned so far, rad; NaN of a grain that has just been made.
   double angle(int i) const { return state[i][ANGLE]; }
   double &angle(int i) { return state[i][ANGLE]; }
-  // At the end of the last step, m/s^2 and rad/s^2: NaN as long as it is not known.
+  // At the end of the last step (m/s^2, rad/s^2); x is NaN as long as it is not known.
   struct Acceleration {
     double x, y, turn;
   };
@@ -63,7 +63,7 @@ public:
   void forget_accelerations() { kept.valid_step = -1; }
 
   // --- mass and inertia ---
-  // 1/m and 1/I of an own atom, 0 of walls; divisions, done once for many steps.
+  // 1/m (1/kg) and 1/I (1/(kg m^2)) of an own atom, 0 for walls: divisions that are done once for many steps.
   struct Inverse {
     double mass, inertia;
   };

@@ -62,7 +62,7 @@ FixCDEMShape::FixCDEMShape(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
 
 FixCDEMShape::~FixCDEMShape() { atom->delete_callback(id, Atom::GROW); }
 
-// "T TEMPLATE"
+// Reads "T TEMPLATE", after the word type.
 void FixCDEMShape::read_template(Shearbox::DeckWords &words) {
   const int type = words.integer("type");
   if (type < 1 || type > atom->ntypes)

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // fix ID group cdem/shape [folder DIR] type T TEMPLATE [type T TEMPLATE ...] [density RHO] [orient SEED]
 //
-// Grains of several rigid discs (CDEM). One atom is one grain; its radius is the circumscribed one, to which the
+// Grains of several rigid discs (CDEM). One atom is one grain. Its radius is the circumscribed one, to which the
 // template of its type is scaled, so one template serves a distribution of sizes.
 //
 //   TEMPLATE  single               a disc
 //             triple               three equal discs, each touching the other two
-//             discs N x y r ...    N discs, at most 1000, in any unit, about any origin; they may overlap and must be
-//                                  connected
-//             file NAME            the same from a file: a line "x y r" a disc, # starts a comment
-//   folder    where the files of the templates after it are, if not in the current folder
-//   density   mass per area (kg/m^2): sets the mass of the group's grains at the start of each run, and of those that
-//   come
-//             in a run as they come, from the area of the union of the discs
-//   orient    a grain of the group that is new in a run has a random angle, which depends on SEED and the atom id
-//   alone;
-//             without it the angle is 0
+//             discs N x y r ...    N discs, at most 1000, in any unit, about any origin. They may overlap and must be
+//                                  connected; none may lie inside another
+//             file NAME            the same from a file with a line "x y r" per disc; # starts a comment
+//   folder    where the files of the templates that follow are (default: the current folder)
+//   density   mass per area RHO > 0 (kg/m^2): sets the masses of the group's grains, from the area of the union of the
+//             discs, when the fix is made, at the start of each run, and of grains that arrive in a run as they arrive.
+//             Default: masses are left as they are. Then "set density/disc" gives a clump the mass of its
+//             circumscribed disc
+//   orient    a grain of the group that is new in a run is turned to a random angle, once; SEED >= 1. The angle
+//             depends only on SEED and the atom id. Default: angle 0
 //
-// Every atom type needs a template. Mass centre, area and inertia are those of the union of the discs, see
-// core/grain_shape.h. One fix of this style may exist. Without it, all atoms are single discs.
+// Every atom type needs one template. Centre of mass, area and inertia are those of the union of the discs, see
+// core/grain_shape.h. At most one fix of this style may exist. Without it, all atoms are single discs.
 //
-// Global array: one row per atom type, with columns
+// Global array: one row per atom type, with columns (no unit)
 //
 //   1  number of discs of a grain
 //   2  circumscribed diameter over the diameter of the largest disc

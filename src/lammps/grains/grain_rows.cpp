@@ -54,7 +54,7 @@ void GrainRows::fill(int begin, int end, double forward) {
   expand(begin, end);
 }
 
-// A state that is not known yet may be NaN; it is not asked for unless the velocity is carried forward.
+// An acceleration that is not known yet is NaN, so it is only read if the velocity is carried forward.
 void GrainRows::fill_grain(int i, double forward) {
   const double *const x = atom->x[i], *const v = atom->v[i], omega = atom->omega[i][2];
   Disc &row = grains[i];
@@ -69,8 +69,8 @@ void GrainRows::fill_grain(int i, double forward) {
     bodies[i].angle = states->angle(i);
 }
 
-// The image of a grain is shifted by whole periods of the box, which may be tilted; and it moves as the box is deformed
-// (fix deform remap v).
+// A periodic image is shifted by whole periods of the box, which may be tilted. If the box is deformed (fix deform
+// remap v), the image also gets the velocity of the deformation.
 int GrainRows::pack(int n, const int *list, double *buf, int pbc_flag, const int *pbc) const {
   double dx = 0, dy = 0, dvx = 0, dvy = 0;
   if (pbc_flag) {

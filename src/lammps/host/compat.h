@@ -20,8 +20,8 @@ namespace Shearbox {
 
 using namespace LAMMPS_NS;
 
-// A list that holds each pair once (with newton off: once on each of two ranks) and takes its cutoff from the radii.
-// `instance` is the style's instance_me.
+// A list that has each pair once (with newton off: once on each of the two ranks of its atoms) and takes its cutoff
+// from the radii. `instance` is the style's instance_me.
 inline void request_half_size_list(LAMMPS *lmp, Pair *pair, [[maybe_unused]] int instance) {
 #if SHEARBOX_LAMMPS_2022
   lmp->neighbor->add_request(pair, NeighConst::REQ_SIZE);

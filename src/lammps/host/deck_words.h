@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The words of a command in an input deck, read one after the other; what is missing is named in the error.
+// The words of a command in an input deck, read one after the other. If one is missing, the error names it.
 #pragma once
 
 #include "error.h"
@@ -15,12 +15,12 @@ namespace Shearbox {
 
 class DeckWords {
 public:
-  // From arg[next] on. `who` begins all messages: the command, or the style with its ID.
+  // Reads from arg[next] on. `who` begins all error messages: the command, or the style with its ID.
   DeckWords(LAMMPS_NS::LAMMPS *lmp, std::string who, int narg, char **arg, int next = 0)
       : lmp(lmp), who(std::move(who)), narg(narg), arg(arg), next(next) {}
 
   bool done() const { return next >= narg; }
-  int read() const { return next; } // how many words are behind
+  int read() const { return next; } // index of the next word in arg
   int left() const { return narg - next; }
 
   std::string word(const std::string &what) {
@@ -29,10 +29,10 @@ public:
     return arg[next++];
   }
 
-  // What follows a keyword, of which the message says "nothing" if nothing does.
+  // The word after a keyword. If there is none it is "nothing", for the error message of the caller.
   std::string choice() { return done() ? "nothing" : arg[next++]; }
 
-  // Whether the next word is this one; then it is taken.
+  // If the next word is `keyword`, takes it and returns true.
   bool take(const std::string &keyword) {
     if (done() || keyword != arg[next])
       return false;
@@ -46,7 +46,7 @@ public:
   }
 
   bool number_follows() const { return !done() && LAMMPS_NS::utils::is_double(arg[next]); }
-  // Infinite beyond the range of numbers, for the caller to refuse.
+  // Infinite if the word is beyond the range of double: the caller has to refuse it.
   double number(const std::string &what) {
     const std::string w = value(what);
     if (!LAMMPS_NS::utils::is_double(w))

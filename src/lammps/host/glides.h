@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What run_style verlet/cdem asks of a fix before it leaves LAMMPS's arrays alone. While it glides, steps are made on
-// the rows of the pair style, and LAMMPS's calls of fixes within a step are left out. A fix that acts within a step and
-// is not one of these ends gliding, whatever its name: all steps are then those of run_style verlet.
+// Which fixes may be left out while run_style verlet/cdem glides. To glide is to make steps on the rows of the pair
+// style alone (grains/grain_rows.h): LAMMPS's arrays stay as they are, and fixes are not called within the step. A fix
+// that acts within a step and has none of these interfaces prevents it: all steps are then those of run_style verlet.
 #pragma once
 
 namespace cdem {
@@ -12,19 +12,19 @@ namespace LAMMPS_NS {
 
 class GrainRows;
 
-// A fix that may be left out of glided steps.
+// A fix that need not be called in glided steps.
 class Glides {
 public:
   virtual ~Glides() = default;
-  // Whether it wants LAMMPS's calls in every step of this run all the same.
+  // Whether it must be called in every step of this run nevertheless: then nothing glides.
   virtual bool needs_every_step() const { return false; }
 };
 
-// One that sums what every grain does in every step: it is told of glided steps.
+// A fix that sums up the motion of every grain in every step: it gets glided steps too, in one of two ways.
 class SumsSteps : public Glides {
 public:
-  virtual cdem::Travel *travel() = 0;      // by atom, for the loop that moves the grains
-  virtual void add(const GrainRows &) = 0; // the same, in a loop of its own
+  virtual cdem::Travel *travel() = 0;      // its sums by atom: the loop that moves the grains adds to them
+  virtual void add(const GrainRows &) = 0; // adds a step, in a loop of its own
 };
 
 } // namespace LAMMPS_NS

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The rows that a compute with local output hands to LAMMPS: an array also if it has one column or no row.
+// The rows that a compute with local output passes to LAMMPS: always an array of rows, also with one column or no row.
 #pragma once
 
 #include <cstddef>

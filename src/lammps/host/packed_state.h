@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The state that a fix keeps in restart files, with the style, a version and the length of it in front: a file of
-// another version is refused by name, and never read as something else.
+// The state that a fix keeps in restart files, with a mark, a version and its length in front. A file of another
+// version is refused with the name of the style, and never misread.
 #pragma once
 
 #include "error.h"
@@ -19,11 +19,11 @@ struct StateHead {
   int mark, version, length;
 };
 
-// Raises the version whenever State changes: fields that are added, removed, or mean something else.
+// Writes a state. Raise the version whenever State changes: fields added, removed, or with another meaning.
 template <class State> void write_state(FILE *file, int version, const State &state) {
   static_assert(std::is_trivially_copyable_v<State>);
   const StateHead head{StateHead::MARK, version, int(sizeof(State))};
-  const int size = int(sizeof(head) + sizeof(state)); // LAMMPS wants it in front
+  const int size = int(sizeof(head) + sizeof(state)); // LAMMPS needs it in front
   fwrite(&size, sizeof(size), 1, file);
   fwrite(&head, sizeof(head), 1, file);
   fwrite(&state, sizeof(state), 1, file);
@@ -51,8 +51,8 @@ template <class State> State read_state(LAMMPS_NS::LAMMPS *lmp, const char *styl
   return state;
 }
 
-// What a fix keeps of an atom, `count` numbers: LAMMPS hands the blocks of all fixes one after the other, each with its
-// length in front.
+// What a fix keeps of an atom in restart files, `count` numbers. LAMMPS passes the blocks of all fixes one after the
+// other, each with its length in front; `nth` is the place of this fix.
 inline const double *block_of_atom(const double *extra, int nth) {
   for (int skip = 0; skip < nth; skip++)
     extra += int(*extra);

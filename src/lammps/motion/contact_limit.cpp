@@ -16,7 +16,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-// The contacts of the last forces, as core/contact_network.h asks for them.
+// The contacts of the last forces, in the form that core/contact_network.h needs.
 struct Packing {
   const PairCDEM &pair;
   const FixCDEMGrains &grains;

@@ -15,8 +15,8 @@ public:
   // `fix` sends the weights of own grains to their ghosts, by pack() and unpack().
   ContactLimit(LAMMPS *lmp, Fix *fix) : Pointers(lmp), carrier(fix) {}
 
-  // All ranks together, at a time when the pair style's rows are those of the last forces. Begins with a guess, and
-  // stops before its best bound when that is `enough` (both in s).
+  // The stable step (s); INFINITY without contacts. To be called by all ranks together, while the pair style's rows are
+  // those of the last forces. Improves a first `guess` (s), and stops early once it has found `enough` (s).
   double find(double guess, double enough);
 
   int pack(int n, const int *list, double *buf) const;

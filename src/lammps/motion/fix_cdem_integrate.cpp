@@ -74,10 +74,10 @@ FixCDEMIntegrate::~FixCDEMIntegrate() {
     known->end_moving();
 }
 
-// LAMMPS lets a fix make another one only now.
+// LAMMPS does not let a fix make another one before this call.
 void FixCDEMIntegrate::post_constructor() { take_grains(); }
 
-// Another integrator may have been here before, with other forces.
+// The accelerations may be those of an earlier fix of this style, with other forces.
 void FixCDEMIntegrate::take_grains() {
   if (auto *const known = FixCDEMGrains::find(lmp))
     known->forget_accelerations();
@@ -85,7 +85,7 @@ void FixCDEMIntegrate::take_grains() {
   grains->begin_moving(this);
 }
 
-// Whether the next word was a keyword of a body force, with what belongs to it.
+// If the next word is a keyword of a body force, reads it with its values and returns true.
 bool FixCDEMIntegrate::take_body_force(Shearbox::DeckWords &words) {
   if (words.take("gravity")) {
     for (double &component : gravity)
@@ -133,7 +133,7 @@ void FixCDEMIntegrate::init() {
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix cdem/integrate: run_style {} must be verlet or verlet/cdem", update->integrate_style);
   if (FixCDEMGrains::find(lmp) != grains)
-    take_grains(); // it was taken away
+    take_grains(); // ours was deleted
   refuse_second_integrator();
   audit = FixCDEMAudit::find(lmp);
   tell_grains();
@@ -150,7 +150,7 @@ void FixCDEMIntegrate::reset_dt() {
   contacts->renew_constants();
 }
 
-// Walls that move by themselves check that they hold no grains.
+// Fixes that move walls (WallBody) check themselves that they have no grains.
 void FixCDEMIntegrate::refuse_second_integrator() const {
   for (int k = 0; k < modify->nfix; k++) {
     const Fix *const other = modify->fix[k];
@@ -163,8 +163,8 @@ void FixCDEMIntegrate::refuse_second_integrator() const {
   }
 }
 
-// Other fixes may still add to the forces in their setup: what is taken here is for output, the first step takes it
-// anew.
+// Other fixes may still add to the forces in their setup(). So the accelerations taken here are for output only; the
+// first step computes them again.
 void FixCDEMIntegrate::setup(int) {
   post_neighbor();
   guard.begin(smallest_disc(), step.scene_limit());
@@ -203,7 +203,7 @@ double FixCDEMIntegrate::smallest_disc() const {
   return all;
 }
 
-// Before LAMMPS loses a grain.
+// Called before LAMMPS can lose a grain.
 void FixCDEMIntegrate::pre_exchange() {
   guard.check();
   guard.check_box();
@@ -261,7 +261,7 @@ void FixCDEMIntegrate::book_drag(const GrainRows &rows) {
   book_drag_at([&](int i) { return std::pair(rows.of_grain(i).vx_half, rows.of_grain(i).vy_half); });
 }
 
-// At the velocity of the half step, the middle of what is booked.
+// At the velocity of the half step, in the middle of the step that is booked.
 template <class Velocity> void FixCDEMIntegrate::book_drag_at(Velocity velocity) {
   if (!audit || drag == 0)
     return;

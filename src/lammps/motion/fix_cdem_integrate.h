@@ -4,38 +4,40 @@
 // fix_modify ID gravity GX GY
 // fix_modify ID drag T|none
 //
-// Velocity Verlet for grains in the plane, with inertia I = m r^2/2 for a disc, or as fix cdem/shape has it. Atoms
-// outside the group are walls: contacts don't move them. Exactly one fix of this style must exist.
+// Velocity Verlet for grains in two dimensions, with inertia I = m r^2/2 for a disc, or as fix cdem/shape has it. Atoms
+// outside the group are walls: contacts do not move them. Exactly one fix of this style must exist, and no other
+// integrator may move its grains. Needs dimension 2, atom_style sphere and pair_style cdem.
 //
 //   dt check     refuse a time step beyond the stability limit of the scene (default)
 //   dt any       run with any time step
 //   dt auto MAX  set the time step to the smaller of 0.9 x limit and MAX (s, default: no maximum)
 //   dt contacts MAX
-//                set it to the smaller of MAX and 0.8 x the limit of the contacts there are (compute cdem/limit), for
-//                a packing that is at rest and will not become much denser; without any contact, that of dt auto.
-//                Chosen as the first run begins, and kept from then on: a fix with the same ID that goes on from a
-//                restart file has the same step
+//                set it to the smaller of MAX and 0.8 x the limit of the present contacts (compute cdem/limit),
+//                for a packing that is at rest and will not become much denser. Without any contact, the step is that
+//                of dt auto. It is chosen when the first run begins, and kept from then on: a fix with the same ID that
+//                continues from a restart file has the same step
 //   gravity      acceleration of the grains (m/s^2, default 0 0)
-//   drag         of a medium at rest: force -m v/T on each grain, T > 0 (s, default: none); v is the half step's
+//   drag         of a medium at rest: force -m v/T on each grain, T > 0 (s, default: none); v is the velocity of the
+//                half step
 //   inertia      factor on the moment of inertia of all grains, F > 0 (default: 1), to study how rolling depends on it
 //   rescue       restart file to write when the run fails (default: rescue.restart in the current folder; none beyond
-//                100000 atoms a rank, since the copies it is written from take some 550 bytes an atom)
+//                100000 atoms per rank, since the copies from which it is written take about 550 bytes per atom)
 //
-// A run that blows up ends with an error that names the atom and the step: one that moves by more than a tenth of the
-// smallest disc's radius in one step, has a position, velocity or force that is not a finite number, or has left the
-// box (unless thermo_modify says that lost atoms are no error). All atoms are looked at on every rebuild of the
-// neighbour list and every 100 steps at least (run_style verlet/cdem: the fastest in every step). The restart file then
-// has a state from 5000 to 10000 steps before, or of the start of the run, with the history of contacts and the state
-// of fixes: the run can go on from there with a smaller step.
+// A run that blows up ends with an error that names the step and an atom. The atom has moved by more than a tenth of
+// the smallest disc's radius in one step, has a position, velocity or force that is not a finite number, or has left
+// the box (unless thermo_modify says that lost atoms are no error). All atoms are checked on every rebuild of the
+// neighbour list and at least every 100 steps (run_style verlet/cdem: the fastest in every step). The restart file then
+// has a state from 5000 to 10000 steps before, or from the start of the run, with the history of contacts and the state
+// of fixes: the run can be continued from there with a smaller step.
 //
 // A step that is only a little beyond the limit does not blow up: contacts chatter, grains stay in motion and lie less
 // dense, and nothing else shows. So at the start and every 5000 steps the step is compared with the limit of the
-// present contacts (compute cdem/limit), and a warning is given, once a run. This also finds what the limit of the
-// scene does not know: a large grain among a dozen or more small wall discs.
+// present contacts (compute cdem/limit), and a warning is given, once in a run. This also finds a case that the limit
+// of the scene does not cover: a large grain among a dozen or more small wall discs.
 //
-// Scalar: stability limit of the scene (s), that of the worst packing, see core/stability.h.
+// Scalar: stability limit of the scene (s), that of the worst packing, see core/stability.h; infinite without grains.
 // Per-atom array: 1, 2 acceleration (m/s^2), 3 angular acceleration (rad/s^2), 4 angle turned so far (rad).
-// A run that goes on, also after a restart, starts from the stored acceleration and so continues to the same bits.
+// A run that is continued, also after a restart, starts from the stored acceleration and so gives the same bits.
 #pragma once
 
 #include "grains/fix_cdem_grains.h"
@@ -85,7 +87,7 @@ public:
 
   // Gravity and drag, to the forces of the contacts.
   void add_body_forces();
-  // Of a step made on rows: what drag takes out, if there is an audit.
+  // Books the energy that drag takes out in a step made on the rows, if there is an audit.
   void book_drag(const GrainRows &);
   // Has the neighbour list rebuilt in the next step.
   void rebuild_next() { next_reneighbor = update->ntimestep + 1; }

@@ -88,7 +88,8 @@ void FixCDEMLid::init() {
   set_motion({0, velocity}, {0, state.acceleration});
 }
 
-// The velocity that all discs have; if they differ (a new lid, or one set in motion by hand), that of their momentum.
+// The velocity that all discs have. If they differ (a new lid, or one that was set in motion by hand): momentum over
+// mass.
 double FixCDEMLid::group_velocity() const {
   double extremes[2] = {-INFINITY, -INFINITY}, all[2]; // largest vy and -vy
   for (int i = 0; i < atom->nlocal; i++) {
@@ -158,7 +159,7 @@ void FixCDEMLid::final_integrate() {
   set_motion({0, velocity}, {0, state.acceleration});
 }
 
-// Holds the velocity at the cap; true if it would have been beyond.
+// Limits the speed downward; true if it was higher.
 bool FixCDEMLid::cap() {
   const double fastest = given_cap > 0 ? given_cap : cap_per_force * stress * width * thickness;
   if (velocity >= -fastest)

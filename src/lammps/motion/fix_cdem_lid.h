@@ -1,20 +1,26 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // fix ID group cdem/lid stress SIGMA width W thickness T [vmax V|auto]
 //
-// A rigid, level lid under a constant normal stress. The discs of the group form one body that moves vertically only:
-// its mass M is the sum of theirs, and M dv/dt = sum of contact f_y - F, with F = SIGMA W T downward. Velocity Verlet
-// as in fix cdem/integrate, so the lid needs no servo and no gains: the applied stress is exact, and the stress it
-// feels differs from it only by the lid's own acceleration.
+// A rigid, horizontal lid under a constant normal stress. The discs of the group form one body that only moves
+// vertically: its mass M is the sum of theirs, and M dv/dt = sum of contact f_y - F, with F = SIGMA W T downward.
+// Velocity Verlet as in fix cdem/integrate, so the lid needs no servo and no gains. The applied stress is exact. The
+// felt stress, that of the grains on the lid, differs from it only by the inertia of the lid, M dv/dt/(W T), and while
+// the speed is limited to V.
 //
-//   SIGMA  normal stress, >= 0 (Pa); or v_name, an equal-style variable that is evaluated every step
-//   W, T   width and thickness on which it acts (m)
-//   V      the lid never falls faster (m/s). Default auto = F/sqrt(n kn M), kn the largest normal stiffness, n the
-//          number of discs: when the lid hits a rigid bed with all discs at once, the force of the impact is
-//          v sqrt(n kn M), so it is never more than F itself. Upward, the lid is free.
+//   SIGMA  normal stress, >= 0 (Pa); or v_name, an equal-style variable that is evaluated in every step
+//   W, T   width and thickness on which it acts, > 0 (m)
+//   V      largest speed of the lid downward, > 0 (m/s). Default auto = F/sqrt(n kn M), kn the largest normal
+//          stiffness, n the number of discs: if the lid hits a rigid bed with all discs at once at speed v, the force
+//          of the impact is v sqrt(n kn M), so it is never more than F itself. Needs pair_style cdem. The speed upward
+//          is not limited.
+//
+// stress, width and thickness must be given. The mass of the group must be positive; its discs must not be in the group
+// of fix cdem/integrate, nor in that of another fix of style cdem/lid or cdem/move. Needs dimension 2 and atom_style
+// sphere.
 //
 // Global vector: 1 applied stress (Pa), 2 felt stress = sum of f_y/(W T) (Pa), 3 height of the lower face (m), that is
-// of the lowest point of its discs, 4 velocity (m/s), 5 steps in which the cap acted, 6 horizontal force felt (N).
-// Restarts continue to the same bits.
+// of the lowest point of its discs, 4 velocity (m/s), 5 number of steps in which V limited the velocity, 6 horizontal
+// force of the grains on the lid (N). Runs continued from restart files give the same bits.
 #pragma once
 
 #include "motion/wall_body.h"
@@ -33,13 +39,13 @@ public:
   void final_integrate() override;
   double compute_vector(int) override;
   bool follows_forces() const override { return true; }
-  // A variable may look at the atoms.
+  // A stress variable may read the atoms.
   bool needs_every_step() const override { return !stress_variable.empty(); }
   void write_restart(FILE *) override;
   void restart(char *) override;
 
 private:
-  // What a run that goes on needs, besides the velocities of the atoms.
+  // What a run that is continued needs, in addition to the velocities of the atoms.
   struct State {
     double acceleration;
     double capped_steps;

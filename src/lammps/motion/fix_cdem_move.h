@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // fix ID group cdem/move speed V [dir x|y] [ramp T] [stop S]
 //
-// Moves the discs of the group as one rigid wall by a prescribed displacement s along x (default) or y; with V = 0 the
-// wall is at rest and only its force is wanted. In the time t since the fix first ran:
+// Moves the discs of the group as one rigid wall by a prescribed displacement s along x (default) or y. With V = 0 the
+// wall is at rest, and the fix only gives its force. With t the time since the first run of the fix:
 //
 //   t < T:   ds/dt = V/2 (1 - cos(pi t/T)),   s = V/2 (t - T/pi sin(pi t/T))
 //   t >= T:  ds/dt = V,                       s = V (t - T/2)
 //   |s| reaches S: the wall stops at once, at s = S (or -S if V < 0)
 //
 //   V  speed, may be negative (m/s)      T  ramp, >= 0 (s, default 0: full speed at once)
-//   S  distance to stop at, > 0 (m, default: none)
+//   S  distance at which to stop, > 0 (m, default: none)
+//
+// The discs of the group must not be in the group of fix cdem/integrate, nor in that of another fix of style cdem/move
+// or cdem/lid. Needs dimension 2 and atom_style sphere.
 //
 // Global vector: 1 displacement s (m), 2 speed (m/s), 3 and 4 force f_x and f_y that the grains exert on the wall (N).
-// s follows the closed form, not a sum of steps, rounded to a multiple of 2^-50 m: increments that are coarser than the
-// last bit of a coordinate add up without rounding errors, so the discs keep their distances. Restarts continue to the
-// same bits.
+// s follows the closed form, not a sum of steps. It is rounded to a multiple of 2^-50 m. This is not finer than the
+// last bit of a coordinate below 8 m, so increments add up without rounding errors, and the discs keep their distances.
+// Runs continued from restart files give the same bits.
 #pragma once
 
 #include "motion/wall_body.h"
@@ -39,7 +42,7 @@ private:
   struct Motion {
     double s, speed, acceleration;
   };
-  // The time is start + steps dt: no sum of small numbers, and free to go on with another dt.
+  // The time is start + steps dt: not a sum of small numbers, and a run can be continued with another dt. In s.
   struct Clock {
     double start, steps, dt;
   };

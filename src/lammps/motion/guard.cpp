@@ -16,7 +16,7 @@ using namespace LAMMPS_NS;
 namespace {
 constexpr double LARGEST_SHARE = 0.1; // of the smallest radius, in one step
 constexpr int EVERY = 100;            // steps
-constexpr bigint MOST_ATOMS = 100000; // on a rank, to be copied unasked
+constexpr bigint MOST_ATOMS = 100000; // per rank; with more, no copies are kept unless rescue is given
 
 // A value, and the rank that has it.
 struct Located {
@@ -36,7 +36,7 @@ void Guard::begin(double smallest_radius, double step_limit) {
 
 bool Guard::is_due() const { return update->ntimestep % EVERY == 0; }
 
-// Of the centre in a step; INFINITY if anything about the grain is not a number.
+// Motion of the centre in a step (m); INFINITY if any number of the grain is not finite.
 double Guard::moved(int i) const {
   const double *const x = atom->x[i], *const v = atom->v[i], *const f = atom->f[i];
   const double way = update->dt * std::sqrt(v[0] * v[0] + v[1] * v[1]);
@@ -96,7 +96,7 @@ void Guard::keep() {
     rescue.take();
 }
 
-// `what` is that of the owner.
+// `what` is the text of rank `owner`, which sends it to the others.
 void Guard::fail(int owner, std::string what) {
   int size = int(what.size());
   MPI_Bcast(&size, 1, MPI_INT, owner, world);
@@ -115,6 +115,6 @@ std::string Guard::cause() const {
                        update->dt, limit);
   return fmt::format(
       "The time step {:.4g} s is within the stability limit {:.4g} s of this scene: look for grains that "
-      "overlap or are too fast at the start, for walls or forces that drive them, or too light a lid.",
+      "overlap or are too fast at the start, for walls or forces that drive them, or for a lid that is too light.",
       update->dt, limit);
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Stops a run that blows up, before its grains are lost, and names the grain.
 //
-// Unstable motion doubles within some steps until a grain moves by a tenth of the smallest disc's radius in one step.
-// No impact that is resolved in time is that fast: with a step of 0.9 of the limit, grains that meet at this speed
-// overlap by a fifth of their radius, and with a smaller step by more. Slower grains may still fly out of the box. A
-// weak instability ends before, when contacts open and close in turn; that is for ContactLimit to find.
+// Unstable motion doubles every few steps, until a grain moves by a tenth of the smallest disc's radius in one step.
+// Impacts that the time step resolves are never that fast: with a step of 0.9 of the limit, grains that meet at this
+// speed overlap by a fifth of their radius, and with a smaller step by more. Slower grains may still fly out of the
+// box. A weak instability does not grow to this speed, since contacts open and close in turn: ContactLimit has to find
+// it.
 #pragma once
 
 #include "motion/rescue.h"
@@ -19,24 +20,27 @@ class Guard : protected Pointers {
 public:
   explicit Guard(LAMMPS *lmp) : Pointers(lmp), rescue(lmp) {}
 
-  // The file to write on failure; empty: none, and no copies are kept. Without this call, small runs have one.
+  // The file to write on failure. Empty: none, and no copies are kept. Without this call, runs of up to 100000 atoms
+  // per rank have one.
   void set_file(const std::string &name) {
     file = name;
     automatic = false;
   }
 
-  // At the start of a run, with the smallest radius of a disc, and the stability limit of the scene for messages (s).
+  // At the start of a run: takes the smallest radius of a disc (m), and for messages the stability limit of the scene
+  // (s).
   void begin(double smallest_radius, double step_limit);
-  // Whether a grain that moved so far in a step (m), or an unknown distance, is to be looked for.
+  // Whether grains that moved by up to `moved` in a step (m) have to be checked; true if it is NaN.
   bool suspects(double moved) const { return !(moved <= allowed); }
   // Whether grains are to be looked at in this step whatever their speed: a NaN never compares as too fast.
   bool is_due() const;
   // Looks at all grains; all ranks together. Ends the run if one is too fast or its position, velocity or force is not
   // a finite number.
   void check();
-  // Before LAMMPS deletes what is outside of the box, which is an error unless thermo_modify has it otherwise.
+  // Ends the run if a grain is outside of the box, unless thermo_modify says that lost atoms are no error. To be called
+  // before LAMMPS deletes them.
   void check_box();
-  // Looks at all grains, and copies the state if all is well.
+  // Looks at all grains, and keeps a copy of the state if all is well.
   void keep();
 
   double bytes() const { return rescue.bytes(); }
@@ -49,8 +53,8 @@ private:
 
   std::string file = "rescue.restart";
   bool automatic = true;
-  double allowed = 0; // way of a grain in a step (m)
-  double limit = 0;   // of the time step (s)
+  double allowed = 0; // largest motion of a grain in a step (m)
+  double limit = 0;   // stability limit of the time step (s)
   Rescue rescue;
 };
 

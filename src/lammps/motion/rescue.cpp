@@ -32,7 +32,7 @@ void Rescue::take() {
 
 void Rescue::pack_atoms(Copy &copy) {
   FixCDEMHistory::find(lmp)->copy_from_list();
-  constexpr int EXTRA = 1024; // as much as LAMMPS has to spare in its own buffers
+  constexpr int EXTRA = 1024; // as much as LAMMPS's own buffers have in reserve
   int largest = atom->avec->maxexchange + EXTRA;
   for (int k = 0; k < modify->nfix; k++)
     largest += modify->fix[k]->maxexchange;
@@ -72,7 +72,7 @@ void Rescue::ask_fixes(Copy &copy) {
   }
 }
 
-// A block begins with its length.
+// The block of a fix begins with its length, which restart() does not get.
 void Rescue::tell_fixes(const Copy &copy) {
   for (int k = 0; k < modify->nfix; k++) {
     Fix *const fix = modify->fix[k];

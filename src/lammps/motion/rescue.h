@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is left of a run that fails: two copies of its state in memory, taken in turn, of which the older can be written
-// as a restart file. The older, since a run that is about to fail may have been ill when the newer one was taken.
+// Saves the state of a run that fails: two copies of it are kept in memory, taken in turn, and the older one (or the
+// only one) can be written as a restart file. The older, since a run that is about to fail may have been damaged
+// already when the newer one was taken.
 //
-// A copy has all that LAMMPS moves between ranks with an atom, contacts and their history with it, and what fixes write
-// into restart files.
+// A copy has all that LAMMPS sends to another rank with an atom, including contacts and their history, and what fixes
+// write into restart files.
 #pragma once
 
 #include "lmptype.h"
@@ -22,7 +23,8 @@ public:
   // Forgets all copies.
   void clear() { copies[0] = copies[1] = {}; }
   void take();
-  // Makes the older copy the state of the run and writes it; returns its step. All ranks together. The run can't go on.
+  // Makes the older copy the state of the run and writes it; returns its step, -1 if there is no copy. To be called by
+  // all ranks together. The run cannot be continued.
   bigint write(const std::string &file);
 
   double bytes() const;
@@ -33,7 +35,7 @@ private:
     int natoms = 0;
     double low[3] = {}, high[3] = {}; // the box
     std::vector<double> atoms;
-    std::map<std::string, std::string> fixes; // what they write into restart files, by id; on the first rank
+    std::map<std::string, std::string> fixes; // what each writes into restart files, by its id; on the first rank only
   };
 
   void restore_box(const Copy &);

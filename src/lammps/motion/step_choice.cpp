@@ -20,7 +20,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 constexpr double OF_WORST_PACKING = 0.9;
-constexpr double OF_CONTACTS = 0.8; // they change; and with it a shear test's error of energy is below 0.01 %
+constexpr double OF_CONTACTS = 0.8; // contacts change; and the energy error of a shear test is below 0.01 % with it
 } // namespace
 
 StepChoice::StepChoice(LAMMPS *lmp, Fix *fix) : Pointers(lmp), contacts(lmp, fix), max_step(INFINITY) {}
@@ -63,7 +63,7 @@ double StepChoice::prediction_weight() const {
   return std::min(least, 1.0); // infinite without grains
 }
 
-// The smallest value over all grains, each as if surrounded by its like.
+// The smallest value over all grains, each as if surrounded by equal grains.
 template <class Value> double StepChoice::scene_minimum(Value value) const {
   const auto *const pair = PairCDEM::needed_by("Fix cdem/integrate", lmp);
   const auto *grains = FixCDEMGrains::find(lmp);
@@ -91,7 +91,7 @@ void StepChoice::check() const {
   if (rule == Rule::check && update->dt > limit)
     error->all(FLERR,
                "Fix cdem/integrate: the time step {:.4g} is beyond the stability limit {:.4g} of this scene (smallest "
-               "grain, stiffest contact); take a smaller one, 'dt auto', or 'dt any' to run all the same",
+               "grain, stiffest contact); take a smaller one, 'dt auto', or 'dt any' to run nevertheless",
                update->dt, limit);
   if (chooses() && update->dt > chosen)
     error->all(FLERR, "Fix cdem/integrate: the time step {:.4g} is larger than {:.4g}, which {} has chosen", update->dt,
@@ -131,8 +131,8 @@ void StepChoice::choose_kept_step() {
   set_step(kept_step);
 }
 
-// The limit of the scene knows neighbours of a grain's own kind only: a large grain among many small wall discs has
-// less.
+// The limit of the scene assumes equal grains as neighbours: that of a large grain among many small wall discs is
+// lower.
 void StepChoice::compare_with_contacts() {
   if (warned)
     return;
@@ -141,6 +141,6 @@ void StepChoice::compare_with_contacts() {
   if (warned && comm->me == 0)
     error->warning(FLERR,
                    "Fix cdem/integrate: at step {} the time step {:.4g} is beyond the stability limit {:.4g} of the "
-                   "contacts there are: grains will not come to rest, and results are wrong",
+                   "present contacts: grains will not come to rest, and results are wrong",
                    update->ntimestep, update->dt, stable);
 }

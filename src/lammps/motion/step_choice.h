@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Chooses the time step of fix cdem/integrate, or checks the one that was given, against the stability limits of
-// core/stability.h and core/contact_network.h; see the page of that fix.
+// core/stability.h and core/contact_network.h; see fix_cdem_integrate.h.
 #pragma once
 
 #include "host/deck_words.h"
@@ -14,7 +14,7 @@ class Fix;
 
 class StepChoice : protected Pointers {
 public:
-  // `fix` sends the weights of the contacts' limit to ghosts.
+  // `fix` sends the weights of ContactLimit to ghosts.
   StepChoice(LAMMPS *, Fix *fix);
 
   static constexpr const char *WORDS = "dt check|any|auto [MAX]|contacts [MAX]";
@@ -24,7 +24,7 @@ public:
 
   // An error if the present step is beyond what the rule allows, whoever has set it.
   void check() const;
-  // As a run is prepared: the limit of the scene as it is now, and the step by it.
+  // When a run is prepared: computes the limit of the present scene, and chooses or checks the step by it.
   void init();
   // When contacts are known: chooses the step of `dt contacts`, unless that was done in an earlier run.
   void setup();

@@ -49,7 +49,7 @@ std::string VerletCDEM::hindrance() const {
   if (!integrate)
     return "there is no fix cdem/integrate";
   if (force->bond || force->angle || force->dihedral || force->improper || force->kspace)
-    return "there are forces beside those of pair style cdem";
+    return "there are other forces than those of pair style cdem";
   for (int i = 0; i < modify->nfix; i++)
     if (acts_in_every_step(i))
       return std::string("fix ") + modify->fix[i]->id + " of style " + modify->fix[i]->style +
@@ -67,7 +67,7 @@ bool VerletCDEM::acts_in_every_step(int ifix) const {
   return (mask & WITHIN) || ((mask & FixConst::END_OF_STEP) && fix->nevery == 1);
 }
 
-// The next step at whose end something looks at the atoms.
+// The next step at whose end a fix or output reads the atoms.
 bigint VerletCDEM::next_look() const {
   const bigint now = update->ntimestep;
   bigint next = std::min(update->laststep, output->next);
@@ -77,8 +77,8 @@ bigint VerletCDEM::next_look() const {
   return next;
 }
 
-// The next step in which the list is to be rebuilt for a fix, for neigh_modify, or for a restart file, which holds
-// atoms that are in the box and with their rank.
+// The next step in which the neighbour list is to be rebuilt for a fix, for neigh_modify, or for a restart file: in it
+// the atoms must be inside the box and on the rank that owns their place.
 bigint VerletCDEM::next_rebuild() const {
   const bigint now = update->ntimestep;
   bigint next = output->restart_flag && output->next_restart > now ? output->next_restart : MAXBIGINT;
@@ -104,8 +104,8 @@ void VerletCDEM::run(int n) {
   }
 }
 
-// Makes steps up to the next look. True if that step has been made but for its end; else the next step is to be one of
-// Verlet, which also tallies energy and virial.
+// Makes steps up to `look`, the next step at whose end something reads the atoms. True if that step was made too, all
+// except its end (finish_step()); otherwise the next step is one of Verlet, which also tallies energy and virial.
 bool VerletCDEM::glide_to(bigint look) {
   ev_set(look);
   const bool tally = eflag || vflag;
@@ -125,7 +125,7 @@ void VerletCDEM::finish_step() {
   }
 }
 
-// By timer timeout, or by fix halt.
+// Whether the run was stopped, by timer timeout or by fix halt.
 bool VerletCDEM::stopped() {
   const int done = int(update->ntimestep - run_start);
   if (!timer->check_timeout(done))
@@ -161,14 +161,14 @@ void VerletCDEM::glide_on(bigint target) {
   for (WallBody *fix : wall_bodies)
     fix->move_rows(nullptr);
   contacts->rows.write_back();
-  comm->forward_comm(); // for those who look at ghosts
+  comm->forward_comm(); // ghosts may be read, too
   force_clear();
   contacts->forces();
   integrate->add_body_forces();
   modify->final_integrate();
 }
 
-// The first of the statistics is taken where the grains are moved, others by loops of their own.
+// The loop that moves the grains also serves the first fix that sums up steps; others have loops of their own.
 void VerletCDEM::step(cdem::Fastest &fastest) {
   integrate->book_drag(contacts->rows);
   const auto first = statistics.begin(), end = statistics.end();
@@ -178,7 +178,7 @@ void VerletCDEM::step(cdem::Fastest &fastest) {
     std::for_each(first + 1, end, [this](SumsSteps *fix) { fix->add(contacts->rows); });
 }
 
-// As Verlet does it, on the atoms' arrays.
+// The first half of a step as Verlet makes it, on the atoms' arrays; then fills the rows.
 void VerletCDEM::begin_step() {
   update->ntimestep++;
   neighbor->ago++;
@@ -201,7 +201,7 @@ void VerletCDEM::find_walls() {
   std::sort(felt.begin(), felt.end());
 }
 
-// The second half of a step and the first of the next, by the fixes that move them.
+// Makes the second half of a step and the first half of the next for the walls, by the fixes that move them.
 void VerletCDEM::move_walls(cdem::Fastest &fastest) {
   for (WallBody *fix : wall_bodies)
     fix->final_integrate();
@@ -226,7 +226,8 @@ void VerletCDEM::measure_room() {
 bool VerletCDEM::rebuild_is_due(int steps, const cdem::Fastest &fastest) {
   constexpr double SAFETY = 4, LEAST = 0.05;
   const double mine[] = {fastest.vx2, fastest.vy2, fastest.omega2, reach};
-  double all[4]; // of all ranks, each by itself: the speed of a rank's own largest components depends on who is there
+  // Largest over all ranks, each by itself: a speed from the components of one rank depends on which grains it has.
+  double all[4];
   MPI_Allreduce(mine, all, 4, MPI_DOUBLE, MPI_MAX, world);
   stride = update->dt * cdem::Fastest{all[0], all[1], all[2]}.speed(all[3]);
   if (integrate->guard.suspects(stride)) {

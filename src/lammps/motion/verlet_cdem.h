@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // run_style verlet/cdem
 //
-// Velocity Verlet, to the same bits as run_style verlet, but several times faster for pair style cdem: as long as
-// nothing else looks at the atoms, steps are made on the rows of the pair style alone, the forces of a block of grains
-// and their motion in one go. LAMMPS's own arrays are brought up to date for every step with output, for a fix or a
-// variable that acts at the end of a step, and for a rebuild of the neighbour list. A step with a rebuild, and one for
-// which somebody wants energy or virial of the pairs, is run_style verlet's.
+// Velocity Verlet, with the same bits as run_style verlet, but several times faster for pair style cdem. As long as
+// nothing else reads the atoms, steps are made on the rows of the pair style alone (the run glides): the forces of a
+// block of grains and their motion are computed together. LAMMPS's own arrays are brought up to date for every step
+// with output, for a fix or a variable that acts at the end of a step, and for a rebuild of the neighbour list. A step
+// with a rebuild, or in which energy or virial of the pairs is needed, is made by run_style verlet.
 //
-// The neighbour list is rebuilt before any grain can have moved out of it, whatever neigh_modify every and check say;
-// should a grain have more than quadrupled its speed in just that step, it counts as a dangerous build.
-//
-// A fix that acts within every step, such as gravity or viscous, leaves no steps to be made this way: then this is
-// run_style verlet, and a warning names the fix. Those that say that they may be glided over (host/glides.h) are no
-// hindrance: the fixes of this package, except fix cdem/lid with a variable for its stress.
+// The neighbour list is rebuilt before any grain can have moved too far for it, whatever neigh_modify every and check
+// say. Only a grain that has more than quadrupled its speed in just that step can be too far: then the rebuild counts
+// as dangerous.
+// A fix that acts within every step, such as gravity or viscous, leaves no steps to be made this way. Then this style
+// is as run_style verlet, and a warning names the fix. Fixes that may be left out of such steps (host/glides.h) do not
+// matter: these are the fixes of this package, except fix cdem/lid with a variable for its stress. Needs pair_style
+// cdem.
 #pragma once
 
 #include "core/disc_motion.h"
@@ -60,15 +61,15 @@ private:
   FixCDEMIntegrate *integrate = nullptr;
   std::vector<WallBody *> wall_bodies;
   std::vector<SumsSteps *> statistics;
-  std::vector<int> felt; // own wall discs whose forces matter in every step
+  std::vector<int> felt; // own wall discs whose forces are needed in every step
 
   bool can_glide = false;
   bigint run_start = 0;
   cdem::StepRule rule{};
-  double reach = 0;     // largest of all grains
-  double stride = 0;    // no point of a grain moved further in the last step (m)
-  double room = 0;      // of the list when it was last measured
-  double travelled = 0; // by the fastest since then
+  double reach = 0;     // largest distance of a disc's centre from that of its own grain (m)
+  double stride = 0;    // bound on the motion of any point of a grain in the last step (m)
+  double room = 0;      // how far any grain could still move when it was last measured (m), see DiscPairList::room
+  double travelled = 0; // sum of `stride` since then (m)
 };
 
 } // namespace LAMMPS_NS

@@ -35,7 +35,7 @@ public:
 
   // From now on the rows of the discs are moved instead of the atoms; null: the atoms again.
   void move_rows(GrainRows *);
-  // Of the step that was begun last (m/s).
+  // Speed in the step that was begun last (m/s).
   double speed() const;
 
 protected:
@@ -46,18 +46,20 @@ protected:
   // The words of the fix after its style.
   Shearbox::DeckWords words_of(int narg, char **arg) const;
 
-  // Sums over the discs, with the same bits for any number of ranks. The force is that of the contacts and of whatever
-  // else writes f.
+  // Sums over the discs (N, kg m/s, kg), with the same bits for any number of ranks. The force is that of the contacts
+  // and of all else that writes f.
   double force_x() const;
   double force_y() const;
   double momentum_y() const;
   double total_mass() const;
 
-  // Velocity of all discs, acceleration for the contacts' dashpots (see fix_cdem_integrate.h).
+  // Sets the velocity of all discs (m/s), and the acceleration (m/s^2) with which the velocity of the contacts'
+  // dashpots is carried forward (see core/stability.h).
   void set_motion(Vector velocity, Vector acceleration);
-  // One step's displacement, made at the given mean velocity.
+  // Moves the discs by the displacement of a step (m), which was made at this mean velocity (m/s).
   void shift(Vector displacement, Vector velocity);
-  // The force on the body at the end of a step, or at setup: for the work it did in the step, if there is an audit.
+  // Takes the force on the body (N), at the end of a step or at setup, and books the work it did in the step if there
+  // is an audit.
   void book_work(Vector force);
   void book_start(Vector force) { force_before = force; }
 

@@ -40,7 +40,7 @@ ComputeCDEMContacts::ComputeCDEMContacts(LAMMPS *lmp, int narg, char **arg) : Co
   size_local_rows = 0;
 }
 
-// Which law is in use, and so where its numbers are, is known only when a run begins.
+// The law in use, and so the place of each of its numbers, is only known when a run begins.
 std::vector<ComputeCDEMContacts::Field> ComputeCDEMContacts::fields_of_laws() const {
   std::vector<Field> all;
   for (const std::string &name : cdem::all_remembered())
@@ -61,7 +61,7 @@ void ComputeCDEMContacts::init() {
   pair = PairCDEM::needed_by(fmt::format("Compute cdem/contacts {}", id), lmp);
   for (const std::string &number : cdem::all_remembered())
     if (std::any_of(fields.begin(), fields.end(), [&](const Field &f) { return f.name == number; }))
-      place_of(number); // or an error
+      place_of(number); // an error if the law does not have it
 }
 
 // Ids of the group's atoms that this rank knows, ghosts included, in ascending order.

@@ -3,7 +3,7 @@
 //
 // The discs of the grains and walls of the group, to draw them.
 //
-// Local array: one row per disc, one column per field, in the order given; all of them if none is given:
+// Local array: one row per disc, one column per field, in the order given; by default all of these:
 //
 //   id      of the grain
 //   disc    number of the disc within its grain, from 0
@@ -15,6 +15,8 @@
 // For example:  compute d all cdem/discs id x y radius
 //               dump d all local 1000 discs.dump c_d[*]
 //               dump_modify d format float %.9g
+//
+// Needs pair_style cdem.
 #pragma once
 
 #include "host/local_array.h"

@@ -4,27 +4,32 @@
 // Global vector (J):
 //
 //   1 translation  sum of m v^2/2 over the group
-//   2 rotation     sum of I omega^2/2 over the group, I = m r^2/2 for a disc, or as fix cdem/shape has it
-//   3 springs      sum of e_n^2/(2 k_n) + e_s^2/(2 k_s) over all contacts, whatever the group
+//   2 rotation     sum of I omega^2/2 over the group; I = m r^2/2 for a disc, or as fix cdem/shape has it, times the
+//                  factor `inertia` of fix cdem/integrate
+//   3 springs      sum of e_n^2/(2 k_n) + e_s^2/(2 k_s), and of the energy stored in additions to the law (rolling,
+//                  cohesion), over all contacts, whatever the group
 //
 // and with `audit yes` (default: no), of all grains that fix cdem/integrate moves, since the first run with the audit:
 //
 //   4 tangential   the part of 3 that is e_s^2/(2 k_s)
-//   5 friction     lost where contacts slide
+//   5 friction     lost where contacts slide, or roll at the limit of the rolling resistance
 //   6 dashpots     lost in the dashpots
 //   7 drag         lost to the drag of fix cdem/integrate
 //   8 walls        work that the walls of fixes cdem/lid and cdem/move did on the grains
-//   9 gravity      work of the gravity of fix cdem/integrate, which must stay the same meanwhile
-//   10 residual    what the grains and the springs have won since then, plus 5 to 7, less 8 and 9
+//   9 gravity      work of the gravity of fix cdem/integrate, which must not be changed during the audit
+//   10 residual    the increase of the energy of the grains and springs since then, plus 5 to 7, less 8 and 9
 //
 // Work and losses are sums over steps of the mean force at the two ends of the step times its displacement, as the time
-// integration does work. So the residual is the error of the time step, of second order; and whatever is not in the
-// books: forces of other fixes, grains that are added, removed or given a velocity.
+// integration does work. So the residual is the error of the time step, of second order, and anything that the audit
+// does not count: forces of other fixes, grains that are added, removed or given a velocity.
 //
-// An audit costs some time in every step and 32 bytes a pair; its sums are in restart files: after read_restart, make
-// the compute before the first run. The last digits of sums depend on the number of ranks.
-// Scalar: the sum of 1 to 3. It is constant without damping and sliding, and while no wall moves, as far as the time
-// step allows.
+// An audit costs some time in every step and 32 bytes per pair (40 with rolling resistance). Its sums are in restart
+// files: after read_restart, make the compute before the first run. The last digits of sums depend on the number of
+// ranks.
+//
+// Scalar: the sum of 1 to 3 (J). It is constant, up to the error of the time step, as long as there is no damping,
+// sliding, body force or moving wall. Needs atom_style sphere and pair_style cdem. Only one compute may have an audit,
+// and its first run must not be `pre no`.
 #pragma once
 
 #include "grains/fix_cdem_audit.h"
@@ -53,7 +58,7 @@ private:
   enum Part { TRANSLATION, ROTATION, SPRINGS, NPARTS };
   enum Audit { TANGENTIAL = NPARTS, FRICTION, DASHPOTS, DRAG, WALLS, GRAVITY, RESIDUAL, NALL };
 
-  // Of all grains, now (J).
+  // Of all grains that fix cdem/integrate moves, at present (J).
   struct State {
     double kinetic, springs, tangential, gravity;
   };

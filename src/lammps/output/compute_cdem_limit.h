@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // compute ID all cdem/limit
 //
-// The largest time step that is stable with the contacts of this step (s). It is never above the true limit, and at
-// most some 13 % below it; the scalar of fix cdem/integrate is the limit of the worst packing there could be. Contacts
-// that slide count as if they stuck; the motion of the lid is left out. Without any contact it is infinite. Costs as
-// much as some hundred steps.
+// The largest time step that is stable with the contacts of this step (s). The value is never above the true limit, and
+// at most some 13 % below it; the scalar of fix cdem/integrate is the limit of the worst possible packing. Contacts
+// that slide count as if they stuck; the motion of the lid is not considered. Without any contact the value is
+// infinite. It costs as much as some hundred steps.
 //
-// For example, to watch over it:
+// For example, to output it during a run:
 //
 //   compute limit all cdem/limit
 //   thermo_style custom step dt c_limit
 //
-// fix cdem/integrate dt contacts takes 0.8 of it as a run begins.
+// fix cdem/integrate dt contacts takes 0.8 of it when its first run begins.
 //
-// Scalar: the limit (s), the same bits for any number of ranks. Source: core/contact_network.h.
+// Scalar: the limit (s), with the same bits for any number of ranks. The group must be all. Source:
+// core/contact_network.h.
 #pragma once
 
 #include "compute.h"

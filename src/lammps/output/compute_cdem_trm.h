@@ -6,14 +6,14 @@
 //
 //   TRM = sum r |d theta| / sum sqrt(dx^2 + dy^2)
 //
-// r is the radius of the grain, the circumscribed one if it has several discs. A disc that rolls has 1; above 1 it
-// spins, below 1 it slides. d theta, dx, dy are the exact increments of each step, so the result does not depend on
-// when it is asked for.
+// r is the radius of the grain, the circumscribed one if it has several discs. A disc that rolls has TRM = 1; above 1
+// it spins, below 1 it slides. d theta, dx, dy are the exact increments of each step, so the result does not depend on
+// how often it is output.
 //
 // Per-atom vector: TRM of the grain (no unit); 0 outside the group, for walls, and for a grain that never moved.
 // Scalar: its mean over the grains of the group that have moved, with the same bits for any number of ranks.
-// The sums are in restart files: after read_restart, make the compute with the same ID before the first run, and it
-// goes on. To start afresh, uncompute it and make it again.
+// The sums are in restart files: after read_restart, make the compute with the same ID before the first run, and the
+// sums continue. To begin anew, use uncompute and make it again. Needs atom_style sphere and fix cdem/integrate.
 #pragma once
 
 #include "compute.h"

@@ -11,7 +11,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 constexpr int SIZE = 2;                // numbers per grain
-constexpr int RESTART_SIZE = 1 + SIZE; // with their count in front, as LAMMPS wants it
+constexpr int RESTART_SIZE = 1 + SIZE; // with their count in front, as LAMMPS needs it
 } // namespace
 
 FixCDEMTRM::FixCDEMTRM(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) {
@@ -30,8 +30,8 @@ FixCDEMTRM::~FixCDEMTRM() {
 
 int FixCDEMTRM::setmask() { return FixConst::POST_INTEGRATE; }
 
-// Here v and omega are those of the half step, with which the step was made: dx = dt v and d theta = dt omega, without
-// differences of positions, which periodic boundaries and migration would break.
+// At this point v and omega are those of the half step, with which the step was made: dx = dt v and d theta = dt omega.
+// Differences of positions would be wrong across periodic boundaries and after migration.
 void FixCDEMTRM::post_integrate() {
   for (int i = 0; i < atom->nlocal; i++)
     sums[i].add(atom->v[i][0], atom->v[i][1], atom->omega[i][2], update->dt);

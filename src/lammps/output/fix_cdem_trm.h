@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// fix cdem/trm: made by compute cdem/trm, not by the user. Sums every step, for each grain, how much it turned and how
-// far it went; the sums travel with the grain and are in restart files.
+// fix cdem/trm: made by compute cdem/trm, not by the user. Sums over all steps, for each grain, how much it turned
+// (rad) and how far it went (m). The sums migrate with the grain and are in restart files.
 #pragma once
 
 #include "core/disc_motion.h"
@@ -19,7 +19,7 @@ public:
   FixCDEMTRM(LAMMPS *, int, char **);
   ~FixCDEMTRM() override;
 
-  cdem::Travel *travel() override { return sums.data(); } // of walls without a meaning
+  cdem::Travel *travel() override { return sums.data(); } // those of walls have no meaning
   void add(const GrainRows &) override;
 
   int setmask() override;

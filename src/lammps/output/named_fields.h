@@ -18,7 +18,8 @@ template <class Row> struct Field {
   std::function<double(const Row &)> value;
 };
 
-// The fields that arg names, in that order; all of them if it names none. `compute` begins the message about others.
+// The fields that arg names, in that order; all fields if it names none. `compute` begins the error message about an
+// unknown name.
 template <class Row>
 std::vector<Field<Row>> choose_fields(LAMMPS_NS::LAMMPS *lmp, const std::string &compute, int narg, char **arg,
                                       const std::vector<Field<Row>> &all) {
