@@ -40,7 +40,8 @@ inline void book(NoLosses &, const Approach<T> &, const Approach<T> &, const Fri
 template <class T> struct Added { T before, trial, now, stiffness, dashpot; };
 
 template <class T, std::size_t n>
-inline void book_added(Losses<T, n> &l, std::size_t k, const Added<T> &a, T velocity, double dt) {
+[[gnu::always_inline]] inline void book_added(Losses<T, n> &l, std::size_t k, const Added<T> &a, T velocity,
+                                              double dt) {
   const T give = select(a.stiffness > T(0), T(0.5) / select(a.stiffness > T(0), a.stiffness, T(1)), T(0));
   l.friction = fused(give * (a.before + a.now), a.trial - a.now, l.friction);
   l.dashpots = fused(T(-0.5 * dt) * (l.more[k] + a.dashpot), velocity, l.dashpots);

@@ -5,8 +5,7 @@
 //   tangential  e_s += k_s du_s,   |e_s| <= e_n tan(phi);   at the limit the contact slides and its dashpot is off
 //   viscous     d_n = c_n u_n,  d_s = c_s u_s,   c = 2 h sqrt(m k)
 //
-// It is written once, for T = double or a vector of doubles (lanes.h). Corrections for contacts that close, open, begin
-// or cease to slide within a step are in step_events.h.
+// Written once, for T = double or a vector of doubles (lanes.h). What changes within a step is in step_events.h.
 #pragma once
 
 #include "books.h"
@@ -22,7 +21,8 @@ struct DirectAccumulation {
   static constexpr std::array<Remembered, 0> REMEMBERS{};
 
   template <class T, class Share>
-  static NormalSpring<T> spring(const Contact<T> &c, const Share &, const Material &m, double, T *) {
+  [[gnu::always_inline]] static NormalSpring<T> spring(const Contact<T> &c, const Share &, const Material &m, double,
+                                                       T *) {
     const T e_n = select(c.overlap > T(0), T(m.kn) * c.overlap, T(0));
     return {T(m.kn) * c.before, e_n, e_n};
   }
@@ -35,7 +35,8 @@ struct IncrementalAccumulation {
 
   // A contact that closed in this step, or has no history, starts with the force of its present overlap.
   template <class T, class Share>
-  static NormalSpring<T> spring(const Contact<T> &c, const Share &share, const Material &m, double dt, T *memory) {
+  [[gnu::always_inline]] static NormalSpring<T> spring(const Contact<T> &c, const Share &share, const Material &m,
+                                                       double dt, T *memory) {
     const auto touch = c.overlap > T(0), known = (share.spring == T(1)) && (memory[0] != T(0));
     const T before = memory[0], e_n = select(touch && known, fused(T(-m.kn * dt), c.half.n, before),
                                              select(touch, T(m.kn) * c.overlap, T(0)));
@@ -48,9 +49,8 @@ struct IncrementalAccumulation {
 // Force along n and t on disc a (N), and a torque in addition to that of the force (N m). Disc b gets the opposite.
 template <class T> struct Action { T fn, ft, torque; };
 
-// The tangential spring (N). It is marked (its last bit is set, see lanes.h) as long as the contact sticks. When the
-// discs are apart the limit is 0, so the history clears. With dt = 0 a sliding contact stays sliding: both values have
-// the mark removed, so |trial| equals the limit.
+// The tangential spring (N), marked (in its last bit, lanes.h) as long as the contact sticks. Apart, the limit is 0 and
+// clears it. With dt = 0 a sliding contact stays sliding: neither value is marked, so |trial| equals the limit.
 template <class T, class Share>
 [[gnu::always_inline]] inline Friction<T> friction(const Contact<T> &c, const Share &share, const NormalSpring<T> &e_n,
                                                    const Material &m, double dt, T &es) {

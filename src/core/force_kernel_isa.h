@@ -81,11 +81,9 @@ template <int lines> [[gnu::always_inline]] inline const void *prefetch(const vo
 }
 
 // The square root and the division of the next pairs are started before the law is applied to the present ones: see
-// Distance. Flattened: otherwise the compiler leaves parts of some laws as functions, to which vectors are passed
-// through memory.
+// Distance. All functions of a law are always inlined: vectors would be passed to a function through memory.
 template <class Law, class Books, class T, bool fetches>
-[[gnu::flatten]] void loop(const Disc<double> *discs, const PairColumns &p, const Material &material, int begin,
-                           int end, double dt) {
+void loop(const Disc<double> *discs, const PairColumns &p, const Material &material, int begin, int end, double dt) {
   const Material m = material; // a copy: the compiler must assume that a store may change the original
   const Numbers<Law::MEMORIES, double> memories(p.memories);
   const Numbers<Law::CONSTANTS, const double> constants(p.constants);
