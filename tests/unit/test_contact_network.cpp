@@ -168,13 +168,6 @@ TEST(ContactNetwork, DiscOnAWall) {
   EXPECT_NEAR(p.limit() / (2 / std::sqrt(KN / MASS)), 1, 1e-6);
 }
 
-// 2 c dt < 4 I, whether there is a spring beside the dashpot or not.
-TEST(ContactNetwork, DashpotAgainstTurning) {
-  Packing p{{disc(), Grain{0, 0}}, {touching(0, 1, 0, 1)}, with_damping(0, 0)};
-  p.rolling = {0, 6e-3};
-  EXPECT_NEAR(p.limit() / (2 * disc().inertia / p.rolling.dashpot), 1, 1e-6);
-}
-
 // Neighbours in antiphase: 4 kn in a chain, 4 (kn + ks) on a square lattice; all turning the same way: 8 ks and 16 ks.
 TEST(ContactNetwork, ChainAndSquareLatticeAreExact) {
   for (double h : {0.0, 0.215, 0.9})
@@ -223,6 +216,13 @@ Packing irregular(int seed, const Material &m) {
         p.contacts.push_back(c);
       }
   return p;
+}
+
+// 2 c dt < 4 I, whether there is a spring beside the dashpot or not.
+TEST(ContactNetwork, DashpotAgainstTurning) {
+  Packing p{{disc(), Grain{0, 0}}, {touching(0, 1, 0, 1)}, with_damping(0, 0)};
+  p.rolling = {0, 6e-3};
+  EXPECT_NEAR(p.limit() / (2 * disc().inertia / p.rolling.dashpot), 1, 1e-6);
 }
 
 TEST(ContactNetwork, IsSafeAndNotMuchBelowTheLimit) {
