@@ -122,7 +122,7 @@ private:
       const double factor = 1 + weights[t.other] / weights[i], x = t.nx * by_mass, y = t.ny * by_mass;
       sum.add(factor * load(normal, dt), x, y, (t.ox * t.ny - t.oy * t.nx) * by_inertia);
       sum.add(factor * load(tangent, dt), -y, x, (t.ox * t.nx + t.oy * t.ny) * by_inertia);
-      if (turning.stiffness > 0)
+      if (turning.stiffness > 0 || turning.dashpot > 0)
         sum.add(factor * load(turning, dt), 0, 0, by_inertia);
     });
     return sum.largest();

@@ -34,7 +34,7 @@ struct Mode {
   // Largest stable step with w = 0.
   double step_limit() const {
     if (stiffness == 0)
-      return INFINITY;
+      return damping > 0 ? 2 * mass / damping : INFINITY;
     return (std::sqrt(damping * damping + 4 * mass * stiffness) - damping) / stiffness;
   }
 
@@ -78,8 +78,9 @@ inline std::array<Mode, 3> stiffest_modes(const AmongItsLike &grain) {
   const Mode sideways = mode(moving, grain.mass), turns = mode(turning, grain.mass * grain.inertia);
   const double per_contact = 2 * shape.neighbours() / (grain.radius * grain.radius);
   const Resistance::Part &against = grain.added.turning;
-  const Mode rolls{(is_disc ? 0 : turns.stiffness) + per_contact * against.stiffness,
-                   turns.damping + per_contact * against.dashpot, turns.mass};
+  const Mode together = is_disc ? Mode{0, 0, turns.mass} : turns;
+  const Mode rolls{together.stiffness + per_contact * against.stiffness,
+                   together.damping + per_contact * against.dashpot, turns.mass};
   return {sideways, turns, rolls};
 }
 

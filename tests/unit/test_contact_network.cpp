@@ -218,6 +218,13 @@ Packing irregular(int seed, const Material &m) {
   return p;
 }
 
+// 2 c dt < 4 I, whether there is a spring beside the dashpot or not.
+TEST(ContactNetwork, DashpotAgainstTurning) {
+  Packing p{{disc(), Grain{0, 0}}, {touching(0, 1, 0, 1)}, with_damping(0, 0)};
+  p.rolling = {0, 6e-3};
+  EXPECT_NEAR(p.limit() / (2 * disc().inertia / p.rolling.dashpot), 1, 1e-6);
+}
+
 TEST(ContactNetwork, IsSafeAndNotMuchBelowTheLimit) {
   for (int seed = 1; seed <= 4; seed++)
     for (double h : {0.0, 0.5}) {

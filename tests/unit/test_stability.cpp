@@ -98,6 +98,15 @@ TEST(StepLimit, KnowsWhatResistsTurningOnEachOther) {
                    2 / std::sqrt(12 * stiffness / (0.5 * m * r * r)));
 }
 
+// 2 c dt < 4 I of that motion, in which springs and dashpots of the material have no part.
+TEST(StepLimit, KnowsADashpotAgainstTurningWithoutASpring) {
+  const double dashpot = 1e-3, m = 3e-4, r = 2e-3;
+  Resistance added;
+  added.turning.dashpot = dashpot;
+  EXPECT_DOUBLE_EQ(step_limit(disc_among_its_like(material(1e-6, 1e-6, 0, 1, 0.5), added)),
+                   2 * 0.5 * m * r * r / (12 * dashpot));
+}
+
 TEST(StepLimit, ALargerInertiaTurnsMoreSlowly) {
   AmongItsLike grain = disc_among_its_like(material(1e8, 1e8, 0, 0, 0.5)), heavy = grain;
   heavy.inertia = 2 * grain.inertia; // with k_s = k_n the modes of turning have the lowest limit
