@@ -84,7 +84,7 @@ def _add_run(commands) -> None:
                      help="factor on the stiffness of all contacts: less gives larger overlaps and time steps")  # fmt: skip
     run.add_argument("--jobs", metavar="N", type=int, default=2, help="stresses run at the same time")
     run.add_argument("--ranks", metavar="N", type=int, default=1, help="MPI ranks of each of them")
-    run.add_argument("--engine", metavar="FILE", type=Path, default=None, help="engine (default: build/lmp_cdem)")
+    run.add_argument("--engine", metavar="FILE", type=Path, default=None, help="engine (default: lmp_cdem of this Shearbox)")
     run.set_defaults(command=_run)
 
 
