@@ -317,7 +317,7 @@ def finish(panels: Any, x: str, y: str) -> None:
         axes.set_ylabel(y)
 
 
-SPEED_COLOURS = {10: "tab:blue", 20: "tab:green", 50: "tab:red", 200: "tab:purple"}
+SPEED_COLOURS: dict[float, str] = {10: "tab:blue", 20: "tab:green", 50: "tab:red", 200: "tab:purple"}
 STIFFNESS_MARKERS = {1: "o", 0.1: "s", 0.01: "^"}
 LEAST = 0.05  # %, end of the axis
 

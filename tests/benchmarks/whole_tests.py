@@ -137,7 +137,7 @@ def read(folder: Path, setting: Setting, seed: int) -> Outcome:
 
 def mean_stress(curve: Path) -> float:
     """Mean shear stress (kPa) over the travel."""
-    data = np.genfromtxt(curve, delimiter=",", names=True)
+    data: np.ndarray = np.genfromtxt(curve, delimiter=",", names=True)
     return float(np.mean(data["tau_kPa"]))
 
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -32,7 +33,7 @@ KEPT = {
 }
 
 
-def mini(directory: Path, more: str, **options: object) -> Run:
+def mini(directory: Path, more: str, **options: Any) -> Run:
     discs, box = mini_box()
     deck = MINI_BOX.replace("fix        lid", more + "fix        lid", 1)
     return run(deck, directory, discs=discs, box=box, style="verlet/cdem", **options)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 import pytest
 from engine import Disc, EngineError, run
@@ -22,7 +23,7 @@ thermo     ${steps}
 FREE = "include ${decks}/start.in\nfix move grains cdem/integrate dt any ${body}\ntimestep ${dt}\n" + AUDIT + "run ${steps}"
 
 
-def books(deck: str, directory: Path, **options: object) -> dict[str, float]:
+def books(deck: str, directory: Path, **options: Any) -> dict[str, float]:
     """The last row of the audit, by name (J)."""
     table = run(deck, directory, **options).thermo
     return {name: table[f"c_energy[{k}]"][-1] for k, name in enumerate(PARTS, 1)}
@@ -94,7 +95,7 @@ def test_work_of_a_moving_wall(tmp_path: Path, law: str, ranks: int) -> None:
     assert abs(got["residual"]) < 1e-5 * got["walls"]
 
 
-def mini_books(directory: Path, **options: object) -> dict[str, float]:
+def mini_books(directory: Path, **options: Any) -> dict[str, float]:
     """A box in motion, with lid, moving floor, gravity, friction and dashpots."""
     discs, box = mini_box()
     deck = (Path(__file__).parent / "mini_box.in").read_text()

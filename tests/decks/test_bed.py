@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -39,7 +40,7 @@ def bed(lid_up: float = 0) -> list[Disc]:
     return [replace(d, y=d.y + lid_up) if d.type == 3 else d for d in discs]
 
 
-def run_bed(deck: str, directory: Path, lid_up: float = 0, **options: object) -> Run:
+def run_bed(deck: str, directory: Path, lid_up: float = 0, **options: Any) -> Run:
     return run(BED + deck, directory, discs=bed(lid_up), box=(-0.03, 0.03, -0.03, 0.03), **options)
 
 
@@ -175,7 +176,7 @@ def test_shear_cell_over_many_periods(tmp_path: Path, law: str) -> None:
     """A floor that runs through a periodic box five times drags the grains along, across its borders. Their momentum is
     the impulse of both walls, by the trapezoidal rule of the steps; energy is never more than the work put in."""
     discs, box = shear_cell()
-    options = {"discs": discs, "box": box, "bx": "p", "law": law, "skin": 2e-4}
+    options: dict[str, Any] = {"discs": discs, "box": box, "bx": "p", "law": law, "skin": 2e-4}
     long = run(CELL + END, tmp_path / "long", steps=40000, every=1000, **options)
     assert long.thermo["f_bottom[1]"][-1] > 4.9 * box[1]
     assert long.end["vx"][long.end["type"] == 1].mean() > 2
@@ -196,7 +197,7 @@ def test_shear_cell_on_any_number_of_ranks(tmp_path: Path, law: str, ranks: int)
     """The same bits. A coordinate is rounded when it is taken back into the box, at a rebuild: so these must come at the
     same steps, too."""
     discs, box = shear_cell()
-    options = {"discs": discs, "box": box, "bx": "p", "law": law, "skin": 2e-4, "steps": 9000, "every": 1000}
+    options: dict[str, Any] = {"discs": discs, "box": box, "bx": "p", "law": law, "skin": 2e-4, "steps": 9000, "every": 1000}
     alone, out = run(CELL + END, tmp_path / "1", **options), run(CELL + END, tmp_path / "n", ranks=ranks, **options)
     assert alone.thermo["f_bottom[1]"][-1] > box[1]
     assert same_bits(alone.end, out.end)

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -138,7 +139,7 @@ def unequal(seed: int) -> list[Disc]:
 
 def test_sizes_of_one_to_ten(tmp_path: Path, law: str) -> None:
     """The neighbour list finds small ones at large ones wherever they are; the same bits on any number of ranks."""
-    options = {"discs": unequal(2), "box": (-0.02, 0.02, -0.02, 0.02), "law": law, "steps": 3000, "skin": 2e-4}
+    options: dict[str, Any] = {"discs": unequal(2), "box": (-0.02, 0.02, -0.02, 0.02), "law": law, "steps": 3000, "skin": 2e-4}
     alone = run(SWARM, tmp_path / "alone", dt=5e-8, **options)
     check_swarm(alone, 0.8)
     assert np.count_nonzero(alone.end["tqz"]) > 10
@@ -251,7 +252,7 @@ def test_chatter(tmp_path: Path, fraction: float) -> None:
     """
     gap = 1e-12
     discs = [Disc(-4e-3 - gap, 0, type=2), Disc(0, 0, vx=v), Disc(4e-3 + gap, 0, type=2)]
-    options = {"discs": discs, "fraction": fraction, "steps": steps, "ks": 0, "phi": 0}
+    options: dict[str, Any] = {"discs": discs, "fraction": fraction, "steps": steps, "ks": 0, "phi": 0}
     energy = run(deck, tmp_path / "free", hn=0, **options).thermo["c_e"]
     first, last = energy[: len(energy) // 4], energy[-len(energy) // 4 :]
     assert last.mean() == pytest.approx(first.mean(), rel=1e-3)
@@ -283,7 +284,7 @@ def test_gas_without_loss_keeps_its_energy(tmp_path: Path, fraction: float, erro
     thermo {round(900 / fraction)}
     run {round(90000 / fraction)}
     """
-    options = {"discs": discs, "box": (0, 0.04, 0, 0.04), "bx": "p", "by": "p", "hn": 0, "hs": 0, "skin": 3e-4}
+    options: dict[str, Any] = {"discs": discs, "box": (0, 0.04, 0, 0.04), "bx": "p", "by": "p", "hn": 0, "hs": 0, "skin": 3e-4}
     energy = run(deck, tmp_path / "smooth", phi=0, **options).thermo["c_e"]
     assert np.abs(energy / energy[0] - 1).max() < error
     rough = run(deck, tmp_path / "rough", phi=27, **options).thermo["c_e"]

@@ -14,6 +14,7 @@ from . import __version__
 from .errors import InputError, ShearboxError
 from .presets import REFERENCE, SPEEDS
 
+Commands = argparse._SubParsersAction  # argparse has no public name for it
 DEPENDENCIES = {"numpy": "python3-numpy", "matplotlib": "python3-matplotlib", "jinja2": "python3-jinja2",
                 "rich": "python3-rich"}  # fmt: skip
 
@@ -55,12 +56,12 @@ def make_parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _add_models(commands) -> None:
+def _add_models(commands: Commands) -> None:
     models = commands.add_parser("models", help="list the models", description="The models of the paper's Table 1.")
     models.set_defaults(command=_models)
 
 
-def _add_run(commands) -> None:
+def _add_run(commands: Commands) -> None:
     run = commands.add_parser(
         "run",
         help="run a model and report on it",
@@ -88,7 +89,7 @@ def _add_run(commands) -> None:
     run.set_defaults(command=_run)
 
 
-def _add_report(commands) -> None:
+def _add_report(commands: Commands) -> None:
     report = commands.add_parser(
         "report",
         help="analyse a folder of results",
