@@ -72,9 +72,7 @@ SETTINGS = [
 
 def timed_scenes() -> dict[str, Shear]:
     """Shear tests at the settings of the presets, cut short where the whole takes long."""
-    return {
-        name: Shear(FULL_TEST[0] * min(1, TIMED_SHARE * speed), speed) for name, speed in SPEEDS.items()
-    }
+    return {name: Shear(FULL_TEST[0] * min(1, TIMED_SHARE * speed), speed) for name, speed in SPEEDS.items()}
 
 
 @dataclass(frozen=True)

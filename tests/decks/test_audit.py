@@ -11,7 +11,18 @@ import pytest
 from engine import Disc, EngineError, run
 from scenes import cloud, mini_box
 
-PARTS = ("translation", "rotation", "springs", "tangential", "friction", "dashpots", "drag", "walls", "gravity", "residual")
+PARTS = (
+    "translation",
+    "rotation",
+    "springs",
+    "tangential",
+    "friction",
+    "dashpots",
+    "drag",
+    "walls",
+    "gravity",
+    "residual",
+)
 
 AUDIT = """
 compute    energy all cdem/energy audit yes
@@ -20,7 +31,11 @@ thermo_modify format float %.17g lost error
 thermo     ${steps}
 """
 
-FREE = "include ${decks}/start.in\nfix move grains cdem/integrate dt any ${body}\ntimestep ${dt}\n" + AUDIT + "run ${steps}"
+FREE = (
+    "include ${decks}/start.in\nfix move grains cdem/integrate dt any ${body}\ntimestep ${dt}\n"
+    + AUDIT
+    + "run ${steps}"
+)
 
 
 def books(deck: str, directory: Path, **options: Any) -> dict[str, float]:

@@ -130,7 +130,9 @@ def test_a_quiet_bed_stays_where_it_is(tmp_path: Path, law: str) -> None:
     some thousand bits, and one that hangs between two that turn goes with their rims; drift at such a speed would be 8
     times the tolerance. For 1e7 steps: tests/validation/long."""
     rest = "thermo 20000\nfix_modify move drag 1e-4\nrun 80000\nfix_modify move drag none\nrun 120000\n"
-    watch = "dump q all custom 20000 q.dump id x y vx vy f_move[4]\ndump_modify q sort id format float %.17g\nrun 200000\n"
+    watch = (
+        "dump q all custom 20000 q.dump id x y vx vy f_move[4]\ndump_modify q sort id format float %.17g\nrun 200000\n"
+    )
     out = run_bed(rest + watch, tmp_path, law=law)
     before, *_, after = out.dump("q.dump")
     for axis in "xy":
@@ -164,7 +166,9 @@ def shear_cell() -> tuple[list[Disc], tuple[float, float, float, float]]:
     d, n, rows = 4e-3, 8, 5
     random = np.random.default_rng(3)
     pitch = 0.88 * d
-    discs = [Disc((i + 0.5) * d, y, d, type=t) for i in range(n) for y, t in ((-0.5 * d, 2), ((rows - 0.5) * pitch + d, 3))]
+    discs = [
+        Disc((i + 0.5) * d, y, d, type=t) for i in range(n) for y, t in ((-0.5 * d, 2), ((rows - 0.5) * pitch + d, 3))
+    ]
     for j in range(rows):
         for i in range(n - j % 2):
             vx, vy = random.uniform(-1, 1, 2)
@@ -197,7 +201,15 @@ def test_shear_cell_on_any_number_of_ranks(tmp_path: Path, law: str, ranks: int)
     """The same bits. A coordinate is rounded when it is taken back into the box, at a rebuild: so these must come at the
     same steps, too."""
     discs, box = shear_cell()
-    options: dict[str, Any] = {"discs": discs, "box": box, "bx": "p", "law": law, "skin": 2e-4, "steps": 9000, "every": 1000}
+    options: dict[str, Any] = {
+        "discs": discs,
+        "box": box,
+        "bx": "p",
+        "law": law,
+        "skin": 2e-4,
+        "steps": 9000,
+        "every": 1000,
+    }
     alone, out = run(CELL + END, tmp_path / "1", **options), run(CELL + END, tmp_path / "n", ranks=ranks, **options)
     assert alone.thermo["f_bottom[1]"][-1] > box[1]
     assert same_bits(alone.end, out.end)

@@ -118,8 +118,12 @@ def test_the_rescued_state_goes_on_to_the_same_bits(
 
 def test_what_is_no_number_is_found(tmp_path: Path) -> None:
     """A force beyond all bounds on one of three discs."""
-    write_data(tmp_path / "discs.data", [Disc(0.01, 0.01), Disc(-0.01, 0), Disc(0.01, -0.01)], (-0.02, 0.02, -0.02, 0.02))
-    deck = "include ${decks}/start.in\ngroup one id 3\nfix push one addforce 1e308 0 0\nfix move grains cdem/integrate\n"
+    write_data(
+        tmp_path / "discs.data", [Disc(0.01, 0.01), Disc(-0.01, 0), Disc(0.01, -0.01)], (-0.02, 0.02, -0.02, 0.02)
+    )
+    deck = (
+        "include ${decks}/start.in\ngroup one id 3\nfix push one addforce 1e308 0 0\nfix move grains cdem/integrate\n"
+    )
     deck += "timestep 1e-7\nrun 1000\n"
     status, output = start(deck, tmp_path, ranks=2)
     assert status != 0

@@ -19,7 +19,9 @@ ENVIRONMENT = {"PATH": "/usr/bin:/bin", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALL
 def _prefix(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Installed into one folder, then moved to another."""
     folder = tmp_path_factory.mktemp("install")
-    subprocess.run(["cmake", "--install", ROOT / "build", "--prefix", folder / "first"], check=True, capture_output=True)
+    subprocess.run(
+        ["cmake", "--install", ROOT / "build", "--prefix", folder / "first"], check=True, capture_output=True
+    )
     return (folder / "first").rename(folder / "moved")  # no blank: LAMMPS's include takes none
 
 

@@ -39,7 +39,6 @@ DAMPED: Values = {"skin": 1e-4}  # the paper's friction and damping
 AUTO = 6.7e-7  # s, `dt auto` of 4 mm discs with the paper's damping
 
 
-
 @dataclass(frozen=True)
 class Job:
     """One run of the engine."""
