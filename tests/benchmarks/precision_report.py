@@ -246,7 +246,9 @@ def is_plain(setting: Setting) -> bool:
 def pooled(samples: list[tuple[float, int]]) -> float:
     """Standard deviation from those of several samples and their sizes; NaN from none."""
     freedom = sum(count - 1 for _, count in samples)
-    return math.sqrt(sum((count - 1) * deviation**2 for deviation, count in samples) / freedom) if freedom else math.nan
+    return (
+        math.sqrt(sum((count - 1) * deviation**2 for deviation, count in samples) / freedom) if freedom else math.nan
+    )
 
 
 def presets_table(trials: list[Trial]) -> str:
@@ -317,7 +319,7 @@ def finish(panels: Any, x: str, y: str) -> None:
         axes.set_ylabel(y)
 
 
-SPEED_COLOURS = {10: "tab:blue", 20: "tab:green", 50: "tab:red", 200: "tab:purple"}
+SPEED_COLOURS: dict[float, str] = {10: "tab:blue", 20: "tab:green", 50: "tab:red", 200: "tab:purple"}
 STIFFNESS_MARKERS = {1: "o", 0.1: "s", 0.01: "^"}
 LEAST = 0.05  # %, end of the axis
 
@@ -397,9 +399,7 @@ def publish(folder: Path) -> str:
         draw_impacts(hits, folder / "impacts.svg")
         parts.append("## Impacts\n\n" + needed_table(hits, (0.01, 0.001, 0.0001), 1e-6, "µs an impact"))
         parts += [f"{name}:\n\n{curve_table(found, 1e-6, 'µs an impact')}" for name, found in hits.items()]
-    beds = {
-        n: {kind: settling_curves(trials, n, kind) for kind in ("kinetic", "height")} for n in settling.SCENES
-    }
+    beds = {n: {kind: settling_curves(trials, n, kind) for kind in ("kinetic", "height")} for n in settling.SCENES}
     if all(found for kinds in beds.values() for found in kinds.values()):
         draw_settling(beds, folder / "settling.svg")
         flat = {f"{n}, {kind}": found for n, kinds in beds.items() for kind, found in kinds.items()}

@@ -26,4 +26,4 @@ class Records(Generic[T]):
         """Keeps a record."""
         self.found.append(record)
         with self.file.open("a") as stream:
-            stream.write(json.dumps(asdict(record)) + "\n")  # type: ignore[call-overload]
+            stream.write(json.dumps(asdict(record)) + "\n")

@@ -201,9 +201,7 @@ def ratio_bars(scenes: dict[str, Samples], file: Path) -> None:
 def phase_bars(scenes: dict[str, Samples], file: Path) -> None:
     """Time per disc and step by phase."""
     bars = [
-        (f"{name}, {engine}", middle(samples))
-        for name, scene in scenes.items()
-        for engine, samples in scene.items()
+        (f"{name}, {engine}", middle(samples)) for name, scene in scenes.items() for engine, samples in scene.items()
     ]
     figure, axes = plt.subplots(figsize=(7, 1.2 + 0.22 * len(bars)))
     left = [0.0] * len(bars)

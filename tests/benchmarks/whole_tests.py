@@ -72,9 +72,7 @@ SETTINGS = [
 
 def timed_scenes() -> dict[str, Shear]:
     """Shear tests at the settings of the presets, cut short where the whole takes long."""
-    return {
-        name: Shear(FULL_TEST[0] * min(1, TIMED_SHARE * speed), speed) for name, speed in SPEEDS.items()
-    }
+    return {name: Shear(FULL_TEST[0] * min(1, TIMED_SHARE * speed), speed) for name, speed in SPEEDS.items()}
 
 
 @dataclass(frozen=True)
@@ -137,7 +135,7 @@ def read(folder: Path, setting: Setting, seed: int) -> Outcome:
 
 def mean_stress(curve: Path) -> float:
     """Mean shear stress (kPa) over the travel."""
-    data = np.genfromtxt(curve, delimiter=",", names=True)
+    data: np.ndarray = np.genfromtxt(curve, delimiter=",", names=True)
     return float(np.mean(data["tau_kPa"]))
 
 

@@ -68,7 +68,8 @@ def mini_box(seed: int = 1) -> tuple[list[Disc], Box]:
 
 def oblique_pairs(sines: Sequence[float], phases: int, speed: float, dt: float) -> tuple[list[Disc], Box]:
     """Discs that fly along x at others at rest, one pair above the other: `phases` for each sine of the angle between
-    approach and normal, which touch at different fractions of a time step. Of pair k the ids are 2 k + 1 and 2 k + 2."""
+    approach and normal, which touch at different fractions of a time step. Of pair k the ids are 2 k + 1 and 2 k + 2.
+    """
     d = Disc(0, 0).diameter
     discs: list[Disc] = []
     for sine in sines:

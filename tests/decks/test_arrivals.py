@@ -171,7 +171,12 @@ def test_clumps_that_are_made_between_runs_are_turned_too(tmp_path: Path) -> Non
 
 def test_angles_are_not_lost_in_a_data_file(tmp_path: Path) -> None:
     """LAMMPS's data files have no place for them: what is written cannot be read without a word of it."""
-    deck = ANGLES.replace("CHANGE", "write_data clumps.data") + "clear\n" + BOX.split("region")[0] + "read_data clumps.data\n"
+    deck = (
+        ANGLES.replace("CHANGE", "write_data clumps.data")
+        + "clear\n"
+        + BOX.split("region")[0]
+        + "read_data clumps.data\n"
+    )
     (tmp_path / "written").mkdir()
     status, output = start(deck, tmp_path / "written")
     run(ANGLES.replace("CHANGE", ""), tmp_path, discs=[Disc(0, 0, 6e-3)])

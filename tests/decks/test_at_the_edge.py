@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -32,7 +33,7 @@ KEPT = {
 }
 
 
-def mini(directory: Path, more: str, **options: object) -> Run:
+def mini(directory: Path, more: str, **options: Any) -> Run:
     discs, box = mini_box()
     deck = MINI_BOX.replace("fix        lid", more + "fix        lid", 1)
     return run(deck, directory, discs=discs, box=box, style="verlet/cdem", **options)
@@ -65,7 +66,11 @@ def test_balance_moves_grains_in_contact(tmp_path: Path) -> None:
 def test_one_run_in_many(tmp_path: Path) -> None:
     """Cut into runs of any length, some of no step, and after `clear` all over again: the same bits."""
     discs, box = mini_box()
-    runs = "run 0\n" * 3 + "run 1\nrun 0\n" * 5 + "run 95 every 7 NULL\nrun 0\nrun 7400 post no\nrun 7600 upto\nrun 8000 upto pre no\n"
+    runs = (
+        "run 0\n" * 3
+        + "run 1\nrun 0\n" * 5
+        + "run 95 every 7 NULL\nrun 0\nrun 7400 post no\nrun 7600 upto\nrun 8000 upto pre no\n"
+    )
     begin = START + "group lid type 3\nfix move grains cdem/integrate gravity 0 -1000\ntimestep 2e-7\n"
     begin += "fix lid lid cdem/lid stress 4e5 width 0.032 thickness 0.01\n"
     whole = run(begin + "run 8000\n" + END, tmp_path / "whole", discs=discs, box=box)
@@ -118,7 +123,9 @@ def test_a_box_without_grains(tmp_path: Path, law: str, ranks: int) -> None:
 
 def test_grains_poured_into_a_box_without(tmp_path: Path) -> None:
     """fix pour brings them in the middle of a run, close to the wall; each falls freely from then on."""
-    deck = EMPTY + """
+    deck = (
+        EMPTY
+        + """
     group grains type 1
     neighbor 0.006 bin
     region top block -0.016 0.016 -0.0119 -0.0094 -0.5 0.5
@@ -130,6 +137,7 @@ def test_grains_poured_into_a_box_without(tmp_path: Path) -> None:
     dump_modify g sort id format float %.17g
     run 3000
     """
+    )
     frames = run(deck, tmp_path, law="direct").dump("g.dump")
     speeds = [frame["vy"][frame["type"] == 1] for frame in frames]
     assert [len(v) for v in speeds[1:]] == [3, 3, 3]
@@ -155,10 +163,14 @@ def test_instructions(tmp_path: Path, law: str, style: str, instructions: str) -
     if instructions != "baseline" and instructions not in Path("/proc/cpuinfo").read_text():
         pytest.skip(f"no {instructions} here")
     discs = [Disc(-1.99e-3, 0, vx=5, omega=50), Disc(1.99e-3, 1e-4, vx=-5, vy=1), Disc(5.9e-3, -1e-4, 3.8e-3, vx=-2)]
-    deck = START + "pair_style cdem law ${law} instructions ${instructions}\npair_coeff * * ${kn} ${ks} ${hn} ${hs} ${phi}\n"
+    deck = (
+        START
+        + "pair_style cdem law ${law} instructions ${instructions}\npair_coeff * * ${kn} ${ks} ${hn} ${hs} ${phi}\n"
+    )
     deck += "fix move grains cdem/integrate\ntimestep 2e-8\nrun 50\n" + END
     ends = {
-        i: run(deck, tmp_path / i, discs=discs, law=law, style=style, instructions=i).end for i in ("baseline", instructions)
+        i: run(deck, tmp_path / i, discs=discs, law=law, style=style, instructions=i).end
+        for i in ("baseline", instructions)
     }
     for column in ("fx", "fy", "tqz", "vx", "vy", "omegaz"):
         scale = np.abs(ends["baseline"][column]).max()

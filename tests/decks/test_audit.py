@@ -5,12 +5,24 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 import pytest
 from engine import Disc, EngineError, run
 from scenes import cloud, mini_box
 
-PARTS = ("translation", "rotation", "springs", "tangential", "friction", "dashpots", "drag", "walls", "gravity", "residual")
+PARTS = (
+    "translation",
+    "rotation",
+    "springs",
+    "tangential",
+    "friction",
+    "dashpots",
+    "drag",
+    "walls",
+    "gravity",
+    "residual",
+)
 
 AUDIT = """
 compute    energy all cdem/energy audit yes
@@ -19,10 +31,14 @@ thermo_modify format float %.17g lost error
 thermo     ${steps}
 """
 
-FREE = "include ${decks}/start.in\nfix move grains cdem/integrate dt any ${body}\ntimestep ${dt}\n" + AUDIT + "run ${steps}"
+FREE = (
+    "include ${decks}/start.in\nfix move grains cdem/integrate dt any ${body}\ntimestep ${dt}\n"
+    + AUDIT
+    + "run ${steps}"
+)
 
 
-def books(deck: str, directory: Path, **options: object) -> dict[str, float]:
+def books(deck: str, directory: Path, **options: Any) -> dict[str, float]:
     """The last row of the audit, by name (J)."""
     table = run(deck, directory, **options).thermo
     return {name: table[f"c_energy[{k}]"][-1] for k, name in enumerate(PARTS, 1)}
@@ -94,7 +110,7 @@ def test_work_of_a_moving_wall(tmp_path: Path, law: str, ranks: int) -> None:
     assert abs(got["residual"]) < 1e-5 * got["walls"]
 
 
-def mini_books(directory: Path, **options: object) -> dict[str, float]:
+def mini_books(directory: Path, **options: Any) -> dict[str, float]:
     """A box in motion, with lid, moving floor, gravity, friction and dashpots."""
     discs, box = mini_box()
     deck = (Path(__file__).parent / "mini_box.in").read_text()

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -39,7 +40,7 @@ def bed(lid_up: float = 0) -> list[Disc]:
     return [replace(d, y=d.y + lid_up) if d.type == 3 else d for d in discs]
 
 
-def run_bed(deck: str, directory: Path, lid_up: float = 0, **options: object) -> Run:
+def run_bed(deck: str, directory: Path, lid_up: float = 0, **options: Any) -> Run:
     return run(BED + deck, directory, discs=bed(lid_up), box=(-0.03, 0.03, -0.03, 0.03), **options)
 
 
@@ -129,7 +130,9 @@ def test_a_quiet_bed_stays_where_it_is(tmp_path: Path, law: str) -> None:
     some thousand bits, and one that hangs between two that turn goes with their rims; drift at such a speed would be 8
     times the tolerance. For 1e7 steps: tests/validation/long."""
     rest = "thermo 20000\nfix_modify move drag 1e-4\nrun 80000\nfix_modify move drag none\nrun 120000\n"
-    watch = "dump q all custom 20000 q.dump id x y vx vy f_move[4]\ndump_modify q sort id format float %.17g\nrun 200000\n"
+    watch = (
+        "dump q all custom 20000 q.dump id x y vx vy f_move[4]\ndump_modify q sort id format float %.17g\nrun 200000\n"
+    )
     out = run_bed(rest + watch, tmp_path, law=law)
     before, *_, after = out.dump("q.dump")
     for axis in "xy":
@@ -163,7 +166,9 @@ def shear_cell() -> tuple[list[Disc], tuple[float, float, float, float]]:
     d, n, rows = 4e-3, 8, 5
     random = np.random.default_rng(3)
     pitch = 0.88 * d
-    discs = [Disc((i + 0.5) * d, y, d, type=t) for i in range(n) for y, t in ((-0.5 * d, 2), ((rows - 0.5) * pitch + d, 3))]
+    discs = [
+        Disc((i + 0.5) * d, y, d, type=t) for i in range(n) for y, t in ((-0.5 * d, 2), ((rows - 0.5) * pitch + d, 3))
+    ]
     for j in range(rows):
         for i in range(n - j % 2):
             vx, vy = random.uniform(-1, 1, 2)
@@ -175,7 +180,7 @@ def test_shear_cell_over_many_periods(tmp_path: Path, law: str) -> None:
     """A floor that runs through a periodic box five times drags the grains along, across its borders. Their momentum is
     the impulse of both walls, by the trapezoidal rule of the steps; energy is never more than the work put in."""
     discs, box = shear_cell()
-    options = {"discs": discs, "box": box, "bx": "p", "law": law, "skin": 2e-4}
+    options: dict[str, Any] = {"discs": discs, "box": box, "bx": "p", "law": law, "skin": 2e-4}
     long = run(CELL + END, tmp_path / "long", steps=40000, every=1000, **options)
     assert long.thermo["f_bottom[1]"][-1] > 4.9 * box[1]
     assert long.end["vx"][long.end["type"] == 1].mean() > 2
@@ -196,7 +201,15 @@ def test_shear_cell_on_any_number_of_ranks(tmp_path: Path, law: str, ranks: int)
     """The same bits. A coordinate is rounded when it is taken back into the box, at a rebuild: so these must come at the
     same steps, too."""
     discs, box = shear_cell()
-    options = {"discs": discs, "box": box, "bx": "p", "law": law, "skin": 2e-4, "steps": 9000, "every": 1000}
+    options: dict[str, Any] = {
+        "discs": discs,
+        "box": box,
+        "bx": "p",
+        "law": law,
+        "skin": 2e-4,
+        "steps": 9000,
+        "every": 1000,
+    }
     alone, out = run(CELL + END, tmp_path / "1", **options), run(CELL + END, tmp_path / "n", ranks=ranks, **options)
     assert alone.thermo["f_bottom[1]"][-1] > box[1]
     assert same_bits(alone.end, out.end)

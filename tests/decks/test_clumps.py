@@ -307,6 +307,7 @@ def test_two_grains_collide_off_centre(tmp_path: Path, law: str, ranks: int, h: 
 # Grains of the triangular lattice of touching discs, set down where they just touch. Under a load they sink by 1e-6 of
 # a diameter, so the linear statics of rigid bodies on springs gives every contact force, to that accuracy.
 
+
 class Springs:
     """Rigid bodies on linear springs at the contacts; bodies of fixed discs don't move."""
 
@@ -765,7 +766,9 @@ def test_time_step_limit_of_a_lattice(tmp_path: Path, share: float) -> None:
         x, y = width * (k % n), height * (k // n) / 2
         vx, vy, omega = random.uniform(-1, 1, 3) * 1e-3
         scene.append(TRIPLE.at(x + (width / 2 if k // n % 2 else 0) + R, y + R, vx, vy, omega / R))
-    deck = begin(TRIPLE, step="dt any") + f"""
+    deck = (
+        begin(TRIPLE, step="dt any")
+        + f"""
     run 0
     variable dt equal {share}*f_move
     timestep ${{dt}}
@@ -773,6 +776,7 @@ def test_time_step_limit_of_a_lattice(tmp_path: Path, share: float) -> None:
     thermo_style custom step ke
     run 3000
     """
+    )
     box = (0, n * width, 0, 2 * n * height)
     out = run(deck, tmp_path, discs=scene, box=box, bx="p", by="p", kn=kn, ks=kn / 4, hn=0, hs=0, phi=80)
     kinetic = out.thermo["KinEng"]
@@ -881,12 +885,15 @@ def test_virial(tmp_path: Path, law: str, ranks: int, x: float, y: float) -> Non
     branch = TRIPLE.offsets[1] + (2 * R - overlap) * direction - UNEVEN.offsets[0]
     wrap = lambda c: math.remainder(c, 0.04)
     scene = [TRIPLE.at(x, y), UNEVEN.at(wrap(x + branch[0]), wrap(y + branch[1]), type=3)]
-    deck = begin(TRIPLE, UNEVEN, step="dt auto") + """
+    deck = (
+        begin(TRIPLE, UNEVEN, step="dt auto")
+        + """
     compute p all pressure NULL virial
     thermo_style custom step c_p[1] c_p[2] c_p[4] pe
     thermo_modify format float %.17g
     run 0
     """
+    )
     seen = run(deck, tmp_path, discs=scene, law=law, ranks=ranks, kn=kn, bx="p", by="p").thermo
     force = kn * overlap * direction
     expected = [branch[0] * force[0], branch[1] * force[1], branch[0] * force[1]]

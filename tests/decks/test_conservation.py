@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -75,7 +76,7 @@ run ${steps}
 PRELOAD = 1e-5  # m, overlap
 
 
-def lattice_energy(directory: Path, dt: float, **options: object) -> np.ndarray:
+def lattice_energy(directory: Path, dt: float, **options: Any) -> np.ndarray:
     """Kinetic plus elastic energy of a preloaded lattice that vibrates without loss, over 4e-4 s, 100 of its periods."""
     discs, box = lattice(6, 6, PRELOAD, speed=0.5)
     out = run(

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -28,7 +29,7 @@ def test_contact_starts_afresh(tmp_path: Path, law: str, ranks: int, cut: str) -
     """A disc falls obliquely on another and bounces twice, with no rebuild of the neighbour list between. The second
     impact is the same, to the bit, as that of a disc which starts in the flight between the two, without a past."""
     grain, floor = Disc(1e-3, 3.8731e-3, vx=0.05, vy=-0.05, omega=10), Disc(0, 0, type=2)
-    options = {"law": law, "cut": cut, "ranks": ranks, "skin": 1e-3}
+    options: dict[str, Any] = {"law": law, "cut": cut, "ranks": ranks, "skin": 1e-3}
     whole = run(BOUNCE, tmp_path / "whole", discs=[grain, floor], steps=600, **options)
     assert "Neighbor list builds = 0" in whole.log
     path = whole.dump("path.dump")
@@ -71,7 +72,7 @@ def motion(state: Frame) -> np.ndarray:
 def test_collision_across_a_periodic_border(tmp_path: Path, law: str, ranks: int, shift: float) -> None:
     """While they touch, the discs pass the border of the box and the neighbour list is rebuilt again and again: the same
     as in the middle of a box, within the round-off of the overlap, 3e-18/1e-7."""
-    options = {"law": law, "steps": 100, "skin": 2e-6, "box": (-0.02, 0.02, -0.02, 0.02)}
+    options: dict[str, Any] = {"law": law, "steps": 100, "skin": 2e-6, "box": (-0.02, 0.02, -0.02, 0.02)}
     inside = run(COLLIDE, tmp_path / "inside", discs=oblique_pair(1.0), **options)
     across = run(COLLIDE, tmp_path / "across", discs=shifted(oblique_pair(1.0), shift), ranks=ranks, bx="p", **options)
     builds = next(line for line in across.log.splitlines() if line.startswith("Neighbor list builds"))
@@ -82,7 +83,7 @@ def test_collision_across_a_periodic_border(tmp_path: Path, law: str, ranks: int
 
 def test_collision_across_ranks(tmp_path: Path, law: str, ranks: int) -> None:
     """The same between ranks, whose border passes through the contact: here to the bit."""
-    options = {"law": law, "steps": 100, "skin": 2e-6}
+    options: dict[str, Any] = {"law": law, "steps": 100, "skin": 2e-6}
     alone = run(COLLIDE, tmp_path / "alone", discs=oblique_pair(1.0), **options)
     out = run(COLLIDE, tmp_path / "ranks", discs=oblique_pair(1.0), ranks=ranks, **options)
     assert np.array_equal(motion(out.end), motion(alone.end))
@@ -123,7 +124,7 @@ def test_history_follows_new_ids(tmp_path: Path, law: str, ranks: int, change: s
     the bit if the order of the ids is the same, as on one rank; else forces are summed in another order."""
     discs, (_, width, _, height) = lattice(6, 6, 1e-6, speed=0.05)
     discs = [Disc(0.019, 0.019), *shifted(discs, -width / 2, -height / 2)]
-    options = {"discs": discs, "law": law, "ranks": ranks, "skin": 1e-3}
+    options: dict[str, Any] = {"discs": discs, "law": law, "ranks": ranks, "skin": 1e-3}
     kept = run(RENUMBERED.format(change="delete_atoms group lone compress no"), tmp_path / "kept", **options).end
     new = run(RENUMBERED.format(change=NEW_IDS[change]), tmp_path / "new", **options).end
     assert np.array_equal(kept["id"], np.arange(2, 38))
@@ -144,7 +145,7 @@ def test_a_grain_with_many_contacts_moves_on(tmp_path: Path, law: str) -> None:
     x, y = (large.radius + small - 1e-7) * np.array([np.cos(angles), np.sin(angles)])
     discs = [large, *(Disc(-0.02 + dx, dy, 2 * small, type=2) for dx, dy in zip(x, y, strict=True))]
     box = (-0.04, 0.04, -0.04, 0.04)
-    options = {"discs": discs, "box": box, "law": law, "ranks": 2, "skin": 1e-4, "kn": 1e6, "ks": 2.5e5}
+    options: dict[str, Any] = {"discs": discs, "box": box, "law": law, "ranks": 2, "skin": 1e-4, "kn": 1e6, "ks": 2.5e5}
     stays = run(RENUMBERED.format(change=FROM_FILE), tmp_path / "stays", **options).end
     moves = run(RENUMBERED.format(change=FROM_FILE + "balance 1.0 x 0.1"), tmp_path / "moves", **options).end
     assert abs(stays["tqz"][0]) > 1e-5, "no friction"

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -87,7 +88,9 @@ def test_violent_impact(tmp_path: Path, law: str, speed: float, h: float) -> Non
     assert end["vx"][0] == -end["vx"][1]
 
 
-SWARM = START + """
+SWARM = (
+    START
+    + """
 fix move grains cdem/integrate
 timestep ${dt}
 compute e all cdem/energy
@@ -97,7 +100,9 @@ thermo 20
 dump d all custom ${steps} d.dump id mass radius x y vx vy omegaz
 dump_modify d format float %.17g sort id
 run ${steps}
-""" + END
+"""
+    + END
+)
 
 
 def invariants(frame: dict[str, np.ndarray]) -> np.ndarray:
@@ -138,7 +143,13 @@ def unequal(seed: int) -> list[Disc]:
 
 def test_sizes_of_one_to_ten(tmp_path: Path, law: str) -> None:
     """The neighbour list finds small ones at large ones wherever they are; the same bits on any number of ranks."""
-    options = {"discs": unequal(2), "box": (-0.02, 0.02, -0.02, 0.02), "law": law, "steps": 3000, "skin": 2e-4}
+    options: dict[str, Any] = {
+        "discs": unequal(2),
+        "box": (-0.02, 0.02, -0.02, 0.02),
+        "law": law,
+        "steps": 3000,
+        "skin": 2e-4,
+    }
     alone = run(SWARM, tmp_path / "alone", dt=5e-8, **options)
     check_swarm(alone, 0.8)
     assert np.count_nonzero(alone.end["tqz"]) > 10
@@ -216,7 +227,9 @@ def test_grain_in_a_wedge(tmp_path: Path, law: str, slope: float) -> None:
     grain = Disc(0, 0)
     d, angle = grain.diameter, math.radians(slope)
     walls = [Disc(side * d * math.sin(angle), -d * math.cos(angle), type=2) for side in (-1, 1)]
-    deck = START + f"fix move grains cdem/integrate dt auto gravity 0 -{g}\nfix_modify move drag 2e-5\nrun 20000\n" + END
+    deck = (
+        START + f"fix move grains cdem/integrate dt auto gravity 0 -{g}\nfix_modify move drag 2e-5\nrun 20000\n" + END
+    )
     end = run(deck, tmp_path, discs=[grain, *walls], law=law, kn=kn, ks=0, hn=0.5, phi=0).end
     # Of the whole geometry: 2 kn (d - s) (y + d cos)/s = m g with the distance s.
     y = 0.0
@@ -238,7 +251,9 @@ def test_chatter(tmp_path: Path, fraction: float) -> None:
     """A grain shakes in a gap of 1e-3 of what it moves in a step: contacts open and close in every few steps, 4 to 8 a
     contact, 1e5 times. Undamped and smooth, velocity Verlet keeps the energy, without drift; damped, it falls."""
     v, steps = 0.01, 400000
-    deck = START + """
+    deck = (
+        START
+        + """
     fix move grains cdem/integrate dt any
     compute e all cdem/energy
     thermo_style custom step c_e
@@ -249,9 +264,10 @@ def test_chatter(tmp_path: Path, fraction: float) -> None:
     thermo 997
     run ${steps}
     """
+    )
     gap = 1e-12
     discs = [Disc(-4e-3 - gap, 0, type=2), Disc(0, 0, vx=v), Disc(4e-3 + gap, 0, type=2)]
-    options = {"discs": discs, "fraction": fraction, "steps": steps, "ks": 0, "phi": 0}
+    options: dict[str, Any] = {"discs": discs, "fraction": fraction, "steps": steps, "ks": 0, "phi": 0}
     energy = run(deck, tmp_path / "free", hn=0, **options).thermo["c_e"]
     first, last = energy[: len(energy) // 4], energy[-len(energy) // 4 :]
     assert last.mean() == pytest.approx(first.mean(), rel=1e-3)
@@ -272,7 +288,9 @@ def test_gas_without_loss_keeps_its_energy(tmp_path: Path, fraction: float, erro
     for k in range(64):
         vx, vy = random.uniform(-5, 5, 2)
         discs.append(Disc(0.005 * (k % 8 + 0.5), 0.005 * (k // 8 + 0.5), random.uniform(2e-3, 4.5e-3), vx, vy))
-    deck = START + f"""
+    deck = (
+        START
+        + f"""
     fix move grains cdem/integrate dt any
     run 0
     variable dt equal {fraction}*f_move
@@ -283,7 +301,16 @@ def test_gas_without_loss_keeps_its_energy(tmp_path: Path, fraction: float, erro
     thermo {round(900 / fraction)}
     run {round(90000 / fraction)}
     """
-    options = {"discs": discs, "box": (0, 0.04, 0, 0.04), "bx": "p", "by": "p", "hn": 0, "hs": 0, "skin": 3e-4}
+    )
+    options: dict[str, Any] = {
+        "discs": discs,
+        "box": (0, 0.04, 0, 0.04),
+        "bx": "p",
+        "by": "p",
+        "hn": 0,
+        "hs": 0,
+        "skin": 3e-4,
+    }
     energy = run(deck, tmp_path / "smooth", phi=0, **options).thermo["c_e"]
     assert np.abs(energy / energy[0] - 1).max() < error
     rough = run(deck, tmp_path / "rough", phi=27, **options).thermo["c_e"]

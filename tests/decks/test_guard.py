@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 from engine import Disc, read_dump, run, same_bits, start, write_data
@@ -30,7 +31,7 @@ run ${steps}
 """
 
 
-def box(directory: Path, **variables: object) -> tuple[int, str]:
+def box(directory: Path, **variables: Any) -> tuple[int, str]:
     discs, size = mini_box()
     directory.mkdir(parents=True, exist_ok=True)
     write_data(directory / "discs.data", discs, size)
@@ -99,7 +100,7 @@ def test_the_rescued_state_goes_on_to_the_same_bits(
     write_data(tmp_path / "discs.data", discs, size)
     border = "p" if scene == "fall" else "f"
     deck = BEGIN + (FALL if scene == "fall" else SHEAR) + END
-    options = {"bx": border, "by": border, "law": law, "style": style, "skin": 2e-4}
+    options: dict[str, Any] = {"bx": border, "by": border, "law": law, "style": style, "skin": 2e-4}
     status, output = start(deck, tmp_path, ranks=written_by, part="fail", **options)
     assert status != 0, output[-1500:]
     assert re.search(r"at step 11[01]\d\d atom \d+ moves by", output)  # fall: g t dt = r/10
@@ -117,8 +118,12 @@ def test_the_rescued_state_goes_on_to_the_same_bits(
 
 def test_what_is_no_number_is_found(tmp_path: Path) -> None:
     """A force beyond all bounds on one of three discs."""
-    write_data(tmp_path / "discs.data", [Disc(0.01, 0.01), Disc(-0.01, 0), Disc(0.01, -0.01)], (-0.02, 0.02, -0.02, 0.02))
-    deck = "include ${decks}/start.in\ngroup one id 3\nfix push one addforce 1e308 0 0\nfix move grains cdem/integrate\n"
+    write_data(
+        tmp_path / "discs.data", [Disc(0.01, 0.01), Disc(-0.01, 0), Disc(0.01, -0.01)], (-0.02, 0.02, -0.02, 0.02)
+    )
+    deck = (
+        "include ${decks}/start.in\ngroup one id 3\nfix push one addforce 1e308 0 0\nfix move grains cdem/integrate\n"
+    )
     deck += "timestep 1e-7\nrun 1000\n"
     status, output = start(deck, tmp_path, ranks=2)
     assert status != 0
@@ -156,7 +161,7 @@ def test_what_is_no_number_amid_a_run_is_found(tmp_path: Path, spoil: str, pace:
     speed, dt = 0.1, 2e-7
     discs = [Disc(0.01, 0.01, type=2), Disc(-0.01, 0, vx=speed), Disc(0.01, -0.01, vy=pace)]
     write_data(tmp_path / "discs.data", discs, (-0.02, 0.02, -0.02, 0.02))
-    options = {"style": style, "by": "p", "skin": 2e-4}
+    options: dict[str, Any] = {"style": style, "by": "p", "skin": 2e-4}
     status, output = start(SPOIL, tmp_path, ranks=ranks, dt=dt, spoil=spoil, **options)
     assert status != 0 and "is no faster than verlet" not in output, output[-1500:]
     said = re.search(r"at step (\d+) atom (\d) has a position, velocity or force that is not a finite number", output)
@@ -165,7 +170,8 @@ def test_what_is_no_number_amid_a_run_is_found(tmp_path: Path, spoil: str, pace:
     assert said[2] == "2" or "gravity" in spoil
     assert "The state of step 5000 is in rescue.restart" in output
     deck = BEGIN + "fix move grains cdem/integrate\ninclude ${decks}/end.in\n"
-    status, output = start(deck, tmp_path, part="on", **{"from": "rescue.restart"}, **options)
+    options["from"] = "rescue.restart"
+    status, output = start(deck, tmp_path, part="on", **options)
     assert status == 0, output[-1500:]
     (state,) = read_dump(tmp_path / "end.dump")
     assert state.step == 5000

@@ -12,7 +12,16 @@ from engine import ENVIRONMENT, PROGRAM
 
 STYLES = {
     "pair": {"cdem"},
-    "fix": {"cdem/audit", "cdem/grains", "cdem/history", "cdem/integrate", "cdem/lid", "cdem/move", "cdem/shape", "cdem/trm"},
+    "fix": {
+        "cdem/audit",
+        "cdem/grains",
+        "cdem/history",
+        "cdem/integrate",
+        "cdem/lid",
+        "cdem/move",
+        "cdem/shape",
+        "cdem/trm",
+    },
     "compute": {"cdem/contacts", "cdem/discs", "cdem/energy", "cdem/limit", "cdem/trm"},
     "command": {"cdem/create"},
     "run": {"verlet/cdem"},
@@ -107,7 +116,6 @@ def plugin_styles() -> None:
             ("handle", ctypes.c_void_p),
         ]
 
-    @ctypes.CFUNCTYPE(None, ctypes.POINTER(Plugin), ctypes.c_void_p)
     def register(plugin: "ctypes._Pointer[Plugin]", _lmp: int) -> None:
         style = plugin.contents
         assert style.creator and style.version == b"29 Sep 2021"
@@ -120,7 +128,7 @@ def plugin_styles() -> None:
     argv = (ctypes.c_char_p * len(arguments))(*arguments)
     lmp = ctypes.c_void_p(lammps.lammps_open_no_mpi(len(arguments), argv, None))
     plugin = ctypes.CDLL(str(PROGRAM.with_name("cdemplugin.so")))
-    plugin.lammpsplugin_init(lmp, None, register)
+    plugin.lammpsplugin_init(lmp, None, ctypes.CFUNCTYPE(None, ctypes.POINTER(Plugin), ctypes.c_void_p)(register))
 
 
 def load_plugin(**environment: str) -> subprocess.CompletedProcess[str]:

@@ -43,9 +43,7 @@ SIDES = {"periodic": ("p", "p"), "shrink-wrapped": ("s", "s"), "fixed and period
 @pytest.mark.parametrize("ranks", [1, 4])
 @pytest.mark.parametrize("style", ["verlet", "verlet/cdem"])
 @pytest.mark.parametrize("sides", SIDES)
-def test_what_was_written_in_a_run_goes_on_to_the_same_bits(
-    tmp_path: Path, sides: str, style: str, ranks: int
-) -> None:
+def test_what_was_written_in_a_run_goes_on_to_the_same_bits(tmp_path: Path, sides: str, style: str, ranks: int) -> None:
     bx, by = SIDES[sides]
     options = {"style": style, "bx": bx, "by": by, "every": 370, "skin": 1e-4, "ranks": ranks}
     box = (-0.012, 0.012, -0.012, 0.012)
@@ -76,13 +74,15 @@ def test_a_rescue_file_can_be_read(tmp_path: Path, sides: str, ranks: int) -> No
     options = {"bx": bx, "by": by, "ranks": ranks}
     deck = RESCUE.replace("MORE", "")
     _fail(tmp_path, deck, **options)
-    read = "newton off\nprocessors ${px} ${py} 1\nread_restart rescue.restart\nprint \"atoms = $(atoms)\"\n"
+    read = 'newton off\nprocessors ${px} ${py} 1\nread_restart rescue.restart\nprint "atoms = $(atoms)"\n'
     assert run(read, tmp_path, ranks=ranks).printed("atoms") == 16
 
 
 def test_the_guard_has_the_last_word_beside_fix_deposit(tmp_path: Path) -> None:
     """Which refuses to be told of another step."""
-    (tmp_path / "small.txt").write_text("a disc\n\n1 atoms\n\nCoords\n\n1 0 0 0\n\nTypes\n\n1 1\n\nDiameters\n\n1 0.002\n")
+    (tmp_path / "small.txt").write_text(
+        "a disc\n\n1 atoms\n\nCoords\n\n1 0 0 0\n\nTypes\n\n1 1\n\nDiameters\n\n1 0.002\n"
+    )
     more = """molecule small small.txt
 region place block -0.026 -0.025 -0.026 -0.025 0 0
 fix rain grains deposit 100 0 100000 4711 region place mol small units box

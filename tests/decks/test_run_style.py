@@ -5,6 +5,7 @@ test_same_bits.py and test_clumps.py; the decks of all other tests use it too.""
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 from engine import Disc, Run, run, same_bits, start
@@ -15,7 +16,7 @@ MOVE = "fix move grains cdem/integrate\ntimestep 2e-7\n"
 APPROACH = [Disc(-0.012, 0, vx=50), Disc(0.012, 1e-3, vx=-60, omega=100), Disc(0, -0.015, type=2)]
 
 
-def shot(directory: Path, ranks: int, deck: str, **variables: object) -> Run:
+def shot(directory: Path, ranks: int, deck: str, **variables: Any) -> Run:
     """Grains that shoot at each other, through many times the skin in 20 steps, and on to a wall."""
     return run(START + MOVE + deck + END, directory, discs=APPROACH, ranks=ranks, skin=2e-5, **variables)
 
@@ -64,7 +65,14 @@ dump    distance all local 7 distances.dump c_distance
 dump_modify distance format float %.17g
 run 700
 """
-    options = {"discs": discs, "box": (-0.01, 0.01, -0.01, 0.01), "bx": "p", "kn": 1e5, "ks": 2e4, "ranks": ranks}
+    options: dict[str, Any] = {
+        "discs": discs,
+        "box": (-0.01, 0.01, -0.01, 0.01),
+        "bx": "p",
+        "kn": 1e5,
+        "ks": 2e4,
+        "ranks": ranks,
+    }
     runs = [run(START + MOVE + deck, tmp_path / s[-4:], style=s, **options) for s in ("verlet", "verlet/cdem")]
     verlet, cdem = ((r.directory / "distances.dump").read_text() for r in runs)
     assert cdem == verlet and cdem.count("0.003") > 50
@@ -85,11 +93,15 @@ def test_gravity_and_drag(tmp_path: Path, ranks: int) -> None:
     deck = f"fix move grains cdem/integrate dt any gravity 0 -{g} drag {drag}\ntimestep {dt}\nrun {steps}\n"
     falls = run(START + deck + END, tmp_path, discs=[Disc(0, 0.01)], ranks=ranks)
     expected = -g * drag * (1 - 2.718281828459045 ** (-steps * dt / drag))
-    assert falls.end["vy"][0] == pytest.approx(expected, rel=2 * dt / drag)  # drag takes v of the half step: first order
+    assert falls.end["vy"][0] == pytest.approx(
+        expected, rel=2 * dt / drag
+    )  # drag takes v of the half step: first order
     free = f"fix_modify move drag none gravity 0 0\nrun {steps}\n"
     assert run(START + deck + free + END, tmp_path / "free", discs=[Disc(0, 0.01)], ranks=ranks).end["vy"][
         0
-    ] == pytest.approx(falls.end["vy"][0], rel=5e-4)  # half a step of the old acceleration
+    ] == pytest.approx(
+        falls.end["vy"][0], rel=5e-4
+    )  # half a step of the old acceleration
 
 
 def test_a_fix_that_acts_in_every_step_is_named(tmp_path: Path) -> None:

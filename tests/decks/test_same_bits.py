@@ -8,6 +8,7 @@ a moving floor. Trajectories of such a packing part by e-folding times of some h
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,7 +19,7 @@ DECK = (DECKS / "mini_box.in").read_text()
 COLUMNS = ("id", "x", "y", "vx", "vy", "omegaz", "fx", "fy", "tqz", "f_move[1]", "f_move[2]", "f_move[3]", "f_move[4]")
 
 
-def mini(directory: Path, law: str, box: Box | None = None, **options: int | float | str) -> Run:
+def mini(directory: Path, law: str, box: Box | None = None, **options: Any) -> Run:
     discs, default_box = mini_box()
     return run(DECK, directory, discs=discs, box=box or default_box, law=law, **options)
 
@@ -121,7 +122,8 @@ def test_restart_in_mid_contact(tmp_path: Path, law: str, written_by: int, read_
 
 @pytest.mark.parametrize("rebuild", ["in-every-step", "never"])
 def test_neighbour_list(tmp_path: Path, law: str, ranks: int, rebuild: str, reference: Run) -> None:
-    out = mini(tmp_path, law, ranks=ranks, **({"skin": 0.006} if rebuild == "never" else {"every": "yes"}))
+    options: dict[str, Any] = {"skin": 0.006} if rebuild == "never" else {"every": "yes"}
+    out = mini(tmp_path, law, ranks=ranks, **options)
     assert builds(out) == (0 if rebuild == "never" else 5000)
     assert same(reference, out)
 

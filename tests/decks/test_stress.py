@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -51,7 +52,7 @@ def test_stress_is_independent_of_position(tmp_path: Path, law: str, ranks: int,
     2e-13 m: 1e-10 and 2e-8 of them."""
     overlap = 1e-5
     discs, box = lattice(6, 6, overlap, speed=0.5)
-    options = {"bx": "p", "by": "p", "law": law, "ranks": ranks, "steps": 100}
+    options: dict[str, Any] = {"bx": "p", "by": "p", "law": law, "ranks": ranks, "steps": 100}
     here = run(PRESSURE, tmp_path / "here", discs=discs, box=box, **options)
     moved_box = (box[0] + away, box[1] + away, box[2] - away, box[3] - away)
     there = run(PRESSURE, tmp_path / "there", discs=shifted(discs, away, -away), box=moved_box, **options)

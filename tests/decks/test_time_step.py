@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 import pytest
 from engine import Disc, EngineError, run, same_bits
@@ -104,10 +105,10 @@ def pair_limit(kn: float, h: float) -> float:
     return (math.sqrt(c * c + 2 * m * kn) - c) / kn
 
 
-def step_of_contacts(directory: Path, gap: float, h: float = 0.215, **variables: object) -> tuple[list[float], float]:
+def step_of_contacts(directory: Path, gap: float, h: float = 0.215, **variables: Any) -> tuple[list[float], float]:
     """Time steps of a run with contacts and one without, and the limit of the worst packing."""
     discs = [Disc(-0.002 - gap / 2, 0), Disc(0.002 + gap / 2, 0)]
-    options: dict[str, object] = {"ks": 0, "hn": h, "hs": 0, "id": "move", "largest": 1, "plan": "begin"} | variables
+    options: dict[str, Any] = {"ks": 0, "hn": h, "hs": 0, "id": "move", "largest": 1, "plan": "begin"} | variables
     thermo = run(CONTACTS, directory, discs=discs, **options).thermo
     return list(thermo["Dt"]), thermo["v_limit"][0]
 
@@ -133,7 +134,7 @@ def test_time_step_of_the_contacts_goes_on(tmp_path: Path, ranks: int) -> None:
     """A run from a restart file has the step of the run before, even with other springs; a fix of another ID chooses."""
     first, _ = step_of_contacts(tmp_path, -1e-6, ranks=ranks)
     assert first[0] == pytest.approx(0.8 * pair_limit(KN, 0.215), rel=1e-9)
-    other = {"plan": "go", "kn": KN / 4, "ranks": ranks}
+    other: dict[str, Any] = {"plan": "go", "kn": KN / 4, "ranks": ranks}
     assert set(step_of_contacts(tmp_path, -1e-6, **other)[0]) == {first[0]}
     fresh, _ = step_of_contacts(tmp_path, -1e-6, **other, id="anew")
     assert fresh[0] == pytest.approx(0.8 * pair_limit(KN / 4, 0.215), rel=1e-9)
@@ -152,7 +153,7 @@ def test_dashpots_go_with_the_step_that_is_chosen(tmp_path: Path, ranks: int) ->
     """They are scaled for the step (mass_of_steps of core/contact_law.h): the first step of a run of its own changes
     nothing."""
     discs, box = lattice(6, 6, 1e-5, speed=0.01)
-    options = {"discs": discs, "box": box, "bx": "p", "by": "p", "ranks": ranks}
+    options: dict[str, Any] = {"discs": discs, "box": box, "bx": "p", "by": "p", "ranks": ranks}
     at_once, later = (run(CHOSEN, tmp_path / str(first), first=first, **options).end for first in (0, 1))
     assert same_bits(at_once, later)
 

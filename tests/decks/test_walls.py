@@ -45,7 +45,7 @@ def test_lid_alone(tmp_path: Path, law: str, ranks: int, vmax: float | str) -> N
     out = run(FALL, tmp_path, discs=[GRAIN, *discs], law=law, ranks=ranks, stress=stress, sigma_or_variable=stress,
               vmax=vmax, steps=steps)  # fmt: skip
     force, mass = stress * WIDTH * THICKNESS, n * discs[0].mass
-    cap = force / math.sqrt(n * KN * mass) if vmax == "auto" else vmax
+    cap = force / math.sqrt(n * KN * mass) if isinstance(vmax, str) else vmax
     t, until = out.thermo["Step"] * dt, cap * mass / force
     falls = np.minimum(t, until)
     y = 0.01 - D / 2 - force / mass * falls**2 / 2 - cap * (t - falls)

@@ -147,7 +147,7 @@ def write_frames(folder: Path, steps: list[int], travel: float, width: float = 0
 def _contact_rows(centres: np.ndarray, radius: float) -> list[str]:
     apart = centres[:, None] - centres[None]
     distance = np.hypot(apart[..., 0], apart[..., 1])
-    rows = []
+    rows: list[str] = []
     for i, j in np.argwhere(np.tril(distance < 2.02 * radius, -1)):
         n = apart[i, j] / distance[i, j]
         force = 100 * (1 + n[0] * n[1]) * (1 + 0.5 * np.sin(300 * centres[i, 0]))

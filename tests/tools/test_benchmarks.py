@@ -37,7 +37,15 @@ def test_engines_agree_in_physics(scene: str, beds: Path, tmp_path: Path) -> Non
 
 def test_measures_and_goes_on(tmp_path: Path) -> None:
     def rounds(repeats: int) -> dict[str, int]:
-        program = [sys.executable, BENCHMARKS / "run", "shear test", "--share", "0.002", "--out", tmp_path]
+        program: list[str | Path] = [
+            sys.executable,
+            BENCHMARKS / "run",
+            "shear test",
+            "--share",
+            "0.002",
+            "--out",
+            tmp_path,
+        ]
         done = subprocess.run([*program, "--repeats", str(repeats)], capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stderr
         assert "| shear test |" in done.stdout

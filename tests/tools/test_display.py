@@ -2,6 +2,7 @@
 """Progress on a terminal and elsewhere."""
 
 import io
+import time
 
 import pytest
 from rich.console import Console
@@ -9,9 +10,9 @@ from rich.console import Console
 from shearbox_tools import display
 
 
-def show(console: Console, monkeypatch) -> str:
+def show(console: Console, monkeypatch: pytest.MonkeyPatch) -> str:
     now = [0.0]
-    monkeypatch.setattr(display.time, "monotonic", lambda: now[0])
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
     shown = display.make_display(console, total=16, reached=4)
     shown.started("pack", None, 0)
     shown.ended("pack", "done in 4 s")
@@ -21,6 +22,7 @@ def show(console: Console, monkeypatch) -> str:
         shown.moved("shear 100 kPa", 4.0 + k)
     shown.ended("shear 100 kPa", "done in 3 min")
     shown.close()
+    assert isinstance(console.file, io.StringIO)
     return console.file.getvalue()
 
 

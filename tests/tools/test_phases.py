@@ -40,9 +40,15 @@ def test_done_is_a_whole_table_and_an_engine_that_said_goodbye(tmp_path, table, 
 
 def test_variables_of_the_decks(tmp_path):
     consolidate, shear = shearing(tmp_path, request(), 100)
-    common = {"model": "TypeA_10x5_4-8_1-circle_350", "models": str(INPUT / "models"), "seed": "7",
-              "law": "direct", "dt": "auto",
-              "stiffness": "1", "sigma": "100"}
+    common = {
+        "model": "TypeA_10x5_4-8_1-circle_350",
+        "models": str(INPUT / "models"),
+        "seed": "7",
+        "law": "direct",
+        "dt": "auto",
+        "stiffness": "1",
+        "sigma": "100",
+    }
     assert consolidate.variables == {**common, "packed": "../packed/packed.restart"}
     assert shear.variables == {**common, "speed": "2", "travel": "8"}
     assert consolidate.folder == shear.folder == tmp_path / "100"

@@ -332,7 +332,8 @@ def test_a_damaged_record_is_named(folder, text, message):
 
 
 def test_help_of_every_command():
-    for words in ([], ["models"], ["run"], ["report"]):
+    commands: list[list[str]] = [[], ["models"], ["run"], ["report"]]
+    for words in commands:
         done = subprocess.run([str(SHEARBOX), *words, "--help"], capture_output=True, text=True, timeout=30)
         assert done.returncode == 0
         assert done.stdout.startswith("usage: shearbox")

@@ -88,9 +88,11 @@ def test_beds_are_compared_until_the_references_part() -> None:
 def test_differences_are_those_of_pairs_with_the_same_seed() -> None:
     phi = precision_report.MEASURES[0]
     base = [outcome("any", seed, 1) for seed in (1, 2, 3)]
-    other = [replace(outcome("any", seed, 1), phi_deg=o.phi_deg * f) for (seed, f), o in zip([(1, 1.0), (2, 1.4)], base)]
+    other = [
+        replace(outcome("any", seed, 1), phi_deg=o.phi_deg * f) for (seed, f), o in zip([(1, 1.0), (2, 1.4)], base)
+    ]
     found = precision_report.difference(phi, [*other, outcome("any", 7, 1)], base)
-    assert (found.percent, found.pairs) == (pytest.approx(20), 2)
+    assert found.percent == pytest.approx(20) and found.pairs == 2
     assert found.error == pytest.approx(20), "half the difference of two, their standard error"
     assert not found.resolved
     assert str(found) == "+20.0 ± 20.0 %"
@@ -130,7 +132,9 @@ def test_report_of_whole_tests(tmp_path: Path) -> None:
     assert float(percent.split("±")[0]) == pytest.approx(20, abs=0.5)
     assert percent.endswith("** "), "20 % are more than chance"
     assert (tmp_path / "tests.svg").exists() and not (tmp_path / "impacts.svg").exists()
-    assert asdict(outcomes.found[0])["tau_peak_kPa"] == Records(outcomes.file, whole_tests.Outcome).found[0].tau_peak_kPa
+    assert (
+        asdict(outcomes.found[0])["tau_peak_kPa"] == Records(outcomes.file, whole_tests.Outcome).found[0].tau_peak_kPa
+    )
 
 
 def test_refuses_what_it_does_not_know() -> None:

@@ -14,6 +14,7 @@ from . import __version__
 from .errors import InputError, ShearboxError
 from .presets import LAWS, REFERENCE, SPEEDS
 
+Commands = argparse._SubParsersAction  # argparse has no public name for it
 DEPENDENCIES = {"numpy": "python3-numpy", "matplotlib": "python3-matplotlib", "jinja2": "python3-jinja2",
                 "rich": "python3-rich"}  # fmt: skip
 
@@ -55,12 +56,12 @@ def make_parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _add_models(commands) -> None:
+def _add_models(commands: Commands) -> None:
     models = commands.add_parser("models", help="list the models", description="The models of the paper's Table 1.")
     models.set_defaults(command=_models)
 
 
-def _add_run(commands) -> None:
+def _add_run(commands: Commands) -> None:
     run = commands.add_parser(
         "run",
         help="run a model and report on it",
@@ -80,16 +81,20 @@ def _add_run(commands) -> None:
     run.add_argument("--travel", metavar="S", type=float, default=8.0, help="shear displacement at the end, mm")
     run.add_argument("--seed", metavar="N", type=int, default=1, help="seed of the packing")
     run.add_argument("--law", choices=LAWS, default=LAWS[0], help="contact law")
-    run.add_argument("--dt", metavar="DT", default="auto", help="time step, s; auto: from the stability limit of the contacts")
+    run.add_argument(
+        "--dt", metavar="DT", default="auto", help="time step, s; auto: from the stability limit of the contacts"
+    )
     run.add_argument("--stiffness", metavar="F", type=float, default=1.0,
                      help="factor on the stiffness of all contacts: less gives larger overlaps and time steps")  # fmt: skip
     run.add_argument("--jobs", metavar="N", type=int, default=2, help="stresses run at the same time")
     run.add_argument("--ranks", metavar="N", type=int, default=1, help="MPI ranks of each of them")
-    run.add_argument("--engine", metavar="FILE", type=Path, default=None, help="engine (default: build/lmp_cdem)")
+    run.add_argument(
+        "--engine", metavar="FILE", type=Path, default=None, help="engine (default: lmp_cdem of this Shearbox)"
+    )
     run.set_defaults(command=_run)
 
 
-def _add_report(commands) -> None:
+def _add_report(commands: Commands) -> None:
     report = commands.add_parser(
         "report",
         help="analyse a folder of results",

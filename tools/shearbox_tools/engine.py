@@ -13,7 +13,8 @@ from .errors import InputError
 from .models import ROOT
 from .phases import Phase
 
-PROGRAM = ROOT / "build" / "lmp_cdem"
+# In the repository ROOT is where it is built; installed below a prefix, ROOT is <prefix>/share/shearbox.
+PROGRAM = ROOT / "build" / "lmp_cdem" if (ROOT / "CMakeLists.txt").exists() else ROOT.parents[1] / "bin" / "lmp_cdem"
 SECONDS_TO_STOP = 10.0
 LEAST_FREE_BYTES = 20_000_000
 
@@ -28,7 +29,8 @@ class Engine:
     def check(self) -> None:
         """Refuse to begin without a program that can be started."""
         if not (self.program.is_file() and os.access(self.program, os.X_OK)):
-            raise InputError(f"the engine {self.program} is not there or cannot be run: tools/setup builds it")
+            remedy = "tools/setup builds it, cmake --install copies it into a prefix"
+            raise InputError(f"the engine {self.program} is not there or cannot be run: {remedy}")
         if self.ranks > 1 and shutil.which("mpirun") is None:
             raise InputError(f"--ranks {self.ranks}: there is no mpirun (Debian: apt-get install openmpi-bin)")
 

@@ -48,14 +48,6 @@ inline void forward_comm(LAMMPS *lmp, Pair *pair) {
 #endif
 }
 
-inline void forward_comm(LAMMPS *lmp, Compute *compute) {
-#if SHEARBOX_LAMMPS_2022
-  lmp->comm->forward_comm(compute);
-#else
-  lmp->comm->forward_comm_compute(compute);
-#endif
-}
-
 // Null if there is no such fix.
 inline Fix *fix_by_id(LAMMPS *lmp, const std::string &id) {
 #if SHEARBOX_LAMMPS_2022
@@ -65,12 +57,5 @@ inline Fix *fix_by_id(LAMMPS *lmp, const std::string &id) {
   return i < 0 ? nullptr : lmp->modify->fix[i];
 #endif
 }
-
-// What Fix::dof returns.
-#if SHEARBOX_LAMMPS_2022
-using dof_t = bigint;
-#else
-using dof_t = int;
-#endif
 
 } // namespace Shearbox

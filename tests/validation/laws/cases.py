@@ -35,11 +35,10 @@ D = 4e-3  # m, diameter
 STRESS = 200e3  # Pa, of all lids
 LOAD = STRESS * D * 0.01  # N, on one disc
 LEAN = math.radians(30)  # of the zigzag's contacts against the vertical
-SMOOTH = {"phi": 0, "hn": 0, "hs": 0, "skin": 1e-4}  # no friction, no damping
-DAMPED = {"skin": 1e-4}  # the paper's friction and damping
+Values = dict[str, Any]  # what a run takes or gives: numbers and lists of numbers, to be kept as JSON
+SMOOTH: Values = {"phi": 0, "hn": 0, "hs": 0, "skin": 1e-4}  # no friction, no damping
+DAMPED: Values = {"skin": 1e-4}  # the paper's friction and damping
 AUTO = 6.7e-7  # s, `dt auto` of 4 mm discs with the paper's damping
-
-Values = dict[str, Any]  # what a run gives: numbers and lists of numbers, to be kept as JSON
 
 
 @dataclass(frozen=True)
@@ -239,7 +238,8 @@ def specimen(work: Path, seed: int, **model: Any) -> Path:
     """Folder of a specimen consolidated with the direct law, made if it is not there yet."""
     folder = work / "specimens" / f"{model.get('ngrains', 350)}_{seed}"
     if not (folder / "consolidated.csv").exists():
-        for stage, given in (("pack", {"seed": seed}), ("consolidate", {"sigma": STRESS / 1000})):
+        stages: dict[str, Values] = {"pack": {"seed": seed}, "consolidate": {"sigma": STRESS / 1000}}
+        for stage, given in stages.items():
             run(deck(stage, INPUT), folder, **given, **model, **DECKS)
     return folder
 
@@ -256,7 +256,7 @@ def share_of_auto(folder: Path, share: float, **model: Any) -> Values:
 def bed_measure(job: Job, folder: Path) -> Values:
     """200 samples of height and energy at the end of a period; LOOKS times lag, overlap and contacts."""
     made = specimen(folder.parents[1], 1, **SMALL)
-    given = SMALL | DECKS | {"law": job.law}
+    given: Values = SMALL | DECKS | {"law": job.law}
     done = run(
         deck("bed"), folder, specimen=made / "consolidated.restart", rows=200, often=200 // LOOKS, **job.options,
         **given, **share_of_auto(made, job.dt, **SMALL),
@@ -298,7 +298,7 @@ def shear_measure(job: Job, folder: Path) -> Values:
     made = specimen(folder.parents[1], job.options["seed"])
     folder.mkdir(parents=True)
     shutil.copy(made / "consolidated.restart", folder)
-    given = DECKS | {"law": job.law}
+    given: Values = DECKS | {"law": job.law}
     dt = share_of_auto(made, job.dt)
     run(deck("shear", INPUT), folder, sigma=STRESS / 1000, speed=job.options["speed"], frames=1, **given, **dt)
     table = read_shear(folder / "shear.dat")

@@ -38,7 +38,7 @@ def publish(values: dict[str, Values], out: Path) -> str:
 
 
 def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    lines = [list(head), *map(list, rows)]
+    lines = [list(head), *(list(row) for row in rows)]
     lines.insert(1, ["---"] * len(lines[0]))
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
@@ -148,7 +148,7 @@ def column_table(found: Found) -> str:
                 f"{job.dt:g}",
                 *both(laws, lambda v: f"{v['end_lag'] / v['end_overlap']:.1e}"),
                 *both(laws, lambda v: f"{1e9 * drift(v['lid'][1:]):+.2f}"),
-                *both(laws, lambda v, s=scale: f"{drift(v['energy'][1:]) / s:+.1e}" if "lag" in v else ""),
+                *both(laws, lambda v: f"{drift(v['energy'][1:]) / scale:+.1e}" if "lag" in v else ""),
                 *both(laws, lambda v: f"{min(v['contacts'])}–{max(v['contacts'])}"),
                 *both(laws, lambda v: f"{v['end_pulling']}"),
             ]
@@ -252,7 +252,7 @@ def shear_table(found: Found) -> str:
                 f"{job.options['seed']}",
                 f"{job.dt:g}",
                 *both(laws, lambda v: f"{max(smooth(v['tau_kPa'])):.0f}"),
-                *both(laws, lambda v, s=late: f"{np.mean(v['tau_kPa'][s]):.1f}"),
+                *both(laws, lambda v: f"{np.mean(v['tau_kPa'][late]):.1f}"),
                 *both(laws, lambda v: f"{v['lid_mm'][-1]:.2f}"),
                 *both(laws, lambda v: f"{1e3 * np.mean(v['kinetic_J']):.2f}"),
                 *both(laws, lambda v: f"{v['end_lag'] / v['end_overlap']:.1e}"),
