@@ -5,6 +5,7 @@ whatever the sides of the box. And the rescue file of a run that blows up."""
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 from engine import run, same_bits, start
@@ -45,7 +46,7 @@ SIDES = {"periodic": ("p", "p"), "shrink-wrapped": ("s", "s"), "fixed and period
 @pytest.mark.parametrize("sides", SIDES)
 def test_what_was_written_in_a_run_goes_on_to_the_same_bits(tmp_path: Path, sides: str, style: str, ranks: int) -> None:
     bx, by = SIDES[sides]
-    options = {"style": style, "bx": bx, "by": by, "every": 370, "skin": 1e-4, "ranks": ranks}
+    options: dict[str, Any] = {"style": style, "bx": bx, "by": by, "every": 370, "skin": 1e-4, "ranks": ranks}
     box = (-0.012, 0.012, -0.012, 0.012)
     end = run(WRITE, tmp_path, discs=cloud(4, 2), box=box, **options).end
     for at in (370, 2220, 3330, 5550):
@@ -71,7 +72,7 @@ run 30000
 def test_a_rescue_file_can_be_read(tmp_path: Path, sides: str, ranks: int) -> None:
     """The message of the guard is the last word, and what it says has been written can be read."""
     bx, by = SIDES[sides]
-    options = {"bx": bx, "by": by, "ranks": ranks}
+    options: dict[str, Any] = {"bx": bx, "by": by, "ranks": ranks}
     deck = RESCUE.replace("MORE", "")
     _fail(tmp_path, deck, **options)
     read = 'newton off\nprocessors ${px} ${py} 1\nread_restart rescue.restart\nprint "atoms = $(atoms)"\n'
