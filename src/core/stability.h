@@ -11,7 +11,7 @@
 //   2 (k_n sum l_n^2 + k_s sum l_t^2)    turning, relative to I
 //
 // Six neighbours of a disc can't all be in antiphase: by Bloch's theorem the triangular lattice has at most 6 k_n + 3
-// k_s.
+// k_s. That is so with the inertia of a disc or less; with more, modes that turn and move at once can be faster.
 //
 // The step scheme takes the dashpots at the half step, carried forward by a share w of half a step. A mode with
 // stiffness k, damping c and mass m is stable while k dt^2 + 2 (1 + w) c dt < 4 m.
@@ -53,13 +53,15 @@ struct AmongItsLike {
   Resistance added; // of one contact, beside springs and dashpots of the material
 };
 
-// Moving; turning all the same way; and turning against each other, which only what is added resists. A disc cannot do
-// both of the latter at one contact; for grains of several discs they are taken together.
+// Moving; turning all the same way; and turning against each other, which is what additions resist. At one contact a disc
+// cannot do both of the latter, and of six neighbours not all can turn the other way, so that some tangential springs are
+// stretched too: by Bloch's theorem a quarter of them is enough. For other grains, and with more inertia, both are
+// taken together.
 inline std::array<Mode, 3> stiffest_modes(const AmongItsLike &grain) {
   const GrainShape &shape = grain.shape;
   const Material &m = grain.material;
   const double dashpot_scale = 2 * std::sqrt(grain.mass / 2);
-  const bool is_disc = shape.discs().size() == 1;
+  const bool is_disc = shape.discs().size() == 1 && grain.inertia <= shape.inertia();
   auto moving = [&](double normal, double tangential) {
     if (is_disc)
       return 6 * normal + 3 * tangential;
@@ -74,9 +76,10 @@ inline std::array<Mode, 3> stiffest_modes(const AmongItsLike &grain) {
   };
   const Mode sideways = mode(moving, grain.mass), turns = mode(turning, grain.mass * grain.inertia);
   const double per_contact = 2 * shape.neighbours() / (grain.radius * grain.radius);
+  const double share = is_disc ? 0.25 : 1;
   const Resistance::Part &against = grain.added.turning;
-  const Mode rolls{(is_disc ? 0 : turns.stiffness) + per_contact * against.stiffness,
-                   turns.damping + per_contact * against.dashpot, turns.mass};
+  const Mode rolls{share * turns.stiffness + per_contact * against.stiffness,
+                   share * turns.damping + per_contact * against.dashpot, turns.mass};
   return {sideways, turns, rolls};
 }
 
