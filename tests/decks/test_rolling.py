@@ -194,7 +194,7 @@ def test_critical_slope(tmp_path: Path, anywhere: dict[str, Any], share: float) 
 # %s: what comes between the runs.
 CHANGE = """
 include ${decks}/start.in
-fix move grains cdem/integrate
+fix move grains cdem/integrate inertia ${factor}
 timestep 2e-7
 run 400
 write_restart between.restart
@@ -217,20 +217,21 @@ read_restart between.restart
 comm_modify vel yes
 neighbor ${skin} bin
 run_style ${style}
-fix move grains cdem/integrate
+fix move grains cdem/integrate inertia ${factor}
 timestep 2e-7
 """
 
 
 @pytest.mark.parametrize(("first", "then"), [("rolling 0.3 0.1 cohesion 10", ""), ("", "rolling 0.3 0.1 cohesion 10")])
 def test_additions_that_come_and_go(tmp_path: Path, anywhere: dict[str, Any], first: str, then: str) -> None:
-    """Other additions from a run to the next, in the same deck and by way of a restart file: the same bits. Smooth discs
+    """Other additions from a run to the next, in the same deck and by way of a restart file: the same bits, if the
+    factor on the inertia is given again. Smooth discs
     change their spin as long as there is rolling resistance, and only then; a run begins with half a step of the
     acceleration there was."""
     discs, box = lattice(6, 6, 1e-6, speed=0.01)
     anew = "pair_coeff * * ${kn} 0 ${hn} 0 0 " + then
     options = {"discs": discs, "box": box, "bx": "p", "by": "p", "added": first} | anywhere
-    options |= {"ks": 0, "hs": 0, "phi": 0}
+    options |= {"ks": 0, "hs": 0, "phi": 0, "factor": 2.5}
     here, there = (
         run(CHANGE % (way + anew), tmp_path / name, **options) for name, way in (("here", ""), ("there", FROM_FILE))
     )
