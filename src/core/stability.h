@@ -53,10 +53,10 @@ struct AmongItsLike {
   Resistance added; // of one contact, beside springs and dashpots of the material
 };
 
-// Moving; turning all the same way; and turning against each other, which is what additions resist. At one contact a disc
-// cannot do both of the latter, and of six neighbours not all can turn the other way, so that some tangential springs are
-// stretched too: by Bloch's theorem a quarter of them is enough. For other grains, and with more inertia, both are
-// taken together.
+// Moving; turning all the same way; and turning against each other, which is what additions resist. At one contact a
+// disc cannot do both of the latter, and of six neighbours not all can turn the other way, so that some tangential
+// springs are stretched too: by Bloch's theorem a quarter of them is enough. For other grains, and with more inertia,
+// both are taken together.
 inline std::array<Mode, 3> stiffest_modes(const AmongItsLike &grain) {
   const GrainShape &shape = grain.shape;
   const Material &m = grain.material;

@@ -200,9 +200,9 @@ TEST(ContactNetwork, TurningOnEachOther) {
   EXPECT_NEAR(p.limit() / (2 / std::sqrt(50 * (1 + 1. / 3) / disc().inertia)), 1, 1e-6);
 }
 
-// The limits of the contacts and of the worst packing against the lattice itself, with resistance to turning and with any
-// inertia; 12 x 12 discs have most of its modes. With more inertia and dashpots the latter is on the safe side by up to
-// half.
+// The limits of the contacts and of the worst packing against the lattice itself, with resistance to turning and with
+// any inertia; 12 x 12 discs have most of its modes. With more inertia and dashpots the latter is on the safe side by
+// up to half.
 TEST(ContactNetwork, LatticeThatResistsTurning) {
   for (double factor : {0.5, 1.0, 2.0, 4.0})
     for (double mu : {0.0, 0.3, 0.7, 1.0, 2.0})
