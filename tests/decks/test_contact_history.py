@@ -119,8 +119,9 @@ NEW_IDS = {
 }
 
 
-@pytest.mark.parametrize("change", NEW_IDS)
-@pytest.mark.parametrize("added", ["", "rolling 0.3 0.2 cohesion 100"])
+@pytest.mark.parametrize(
+    ("change", "added"), [*((change, "") for change in NEW_IDS), ("delete-restart", "rolling 0.3 0.2 cohesion 100")]
+)
 def test_history_follows_new_ids(tmp_path: Path, law: str, ranks: int, change: str, added: str) -> None:
     """A grain far from all others is taken away, which gives new ids to these: the same as if they had kept theirs, to
     the bit if the order of the ids is the same, as on one rank; else forces are summed in another order, and the moment of
