@@ -11,7 +11,8 @@
 //   2 (k_n sum l_n^2 + k_s sum l_t^2)    turning, relative to I
 //
 // Six neighbours of a disc cannot all be in antiphase: by Bloch's theorem the triangular lattice has at most
-// 6 k_n + 3 k_s.
+// 6 k_n + 3 k_s. That holds with the inertia of a disc or less; with more, modes that turn and move at once can be
+// faster.
 //
 // The dashpots take the velocity of the half step, carried forward by a share w of half a step. A mode with stiffness
 // k, damping c and mass m is stable while k dt^2 + 2 (1 + w) c dt < 4 m.
@@ -31,11 +32,11 @@ namespace cdem {
 struct Mode {
   double stiffness, damping, mass;
 
-  // Largest stable step with w = 0.
+  // Largest stable step without prediction (w = 0); infinite if nothing resists.
   double step_limit() const {
-    if (stiffness == 0)
-      return damping > 0 ? 2 * mass / damping : INFINITY;
-    return (std::sqrt(damping * damping + 4 * mass * stiffness) - damping) / stiffness;
+    const double root = std::sqrt(damping * damping + 4 * mass * stiffness);
+    const bool overdamped = damping * damping >= 4 * mass * stiffness; // there the difference below would lose digits
+    return overdamped ? 4 * mass / (root + damping) : (root - damping) / stiffness;
   }
 
   // Largest stable w, at most 1. With w = 1 the scheme is of second order.
@@ -55,14 +56,15 @@ struct AmongItsLike {
   Resistance added; // by the law's additions, for one contact
 };
 
-// Three modes: grains move against each other; all turn the same way; neighbours turn in opposite directions. At a
-// contact of two discs the last two exclude each other, and only the law's additions have a spring against the last
-// (the dashpots are counted in both). For grains of several discs both are added up.
+// Three modes: grains move against each other; all turn the same way; neighbours turn in opposite directions, which
+// only the law's additions resist. At one contact two discs cannot do both of the latter; but of six neighbours not all
+// can turn the other way, so some tangential springs are stretched too: by Bloch's theorem a quarter of them is enough.
+// For other grains, and for discs with more inertia, both are added up.
 inline std::array<Mode, 3> stiffest_modes(const AmongItsLike &grain) {
   const GrainShape &shape = grain.shape;
   const Material &m = grain.material;
   const double dashpot_scale = 2 * std::sqrt(grain.mass / 2);
-  const bool is_disc = shape.discs().size() == 1;
+  const bool is_disc = shape.discs().size() == 1 && grain.inertia <= shape.inertia();
   auto moving = [&](double normal, double tangential) {
     if (is_disc)
       return 6 * normal + 3 * tangential;
@@ -77,10 +79,10 @@ inline std::array<Mode, 3> stiffest_modes(const AmongItsLike &grain) {
   };
   const Mode sideways = mode(moving, grain.mass), turns = mode(turning, grain.mass * grain.inertia);
   const double per_contact = 2 * shape.neighbours() / (grain.radius * grain.radius);
+  const double share = is_disc ? 0.25 : 1;
   const Resistance::Part &against = grain.added.turning;
-  const Mode together = is_disc ? Mode{0, 0, turns.mass} : turns;
-  const Mode rolls{together.stiffness + per_contact * against.stiffness,
-                   together.damping + per_contact * against.dashpot, turns.mass};
+  const Mode rolls{share * turns.stiffness + per_contact * against.stiffness,
+                   share * turns.damping + per_contact * against.dashpot, turns.mass};
   return {sideways, turns, rolls};
 }
 

@@ -24,6 +24,8 @@ PARTS = (
     "residual",
 )
 
+ADDED = "rolling 0.3 0.2 cohesion 40"
+
 AUDIT = """
 compute    energy all cdem/energy audit yes
 thermo_style custom step c_energy[*]
@@ -120,12 +122,21 @@ def mini_books(directory: Path, **options: Any) -> dict[str, float]:
     return books(deck.split("dump       end")[0], directory, discs=discs, box=box, **options)
 
 
-@pytest.mark.parametrize("style", ["verlet", "verlet/cdem"])
-def test_residual_of_a_box_in_motion(tmp_path: Path, law: str, ranks: int, style: str) -> None:
+@pytest.mark.parametrize(("style", "added"), [("verlet", ""), ("verlet/cdem", ""), ("verlet/cdem", ADDED)])
+def test_residual_of_a_box_in_motion(tmp_path: Path, law: str, ranks: int, style: str, added: str) -> None:
     """All that comes in goes somewhere, and what is missing shrinks with the square of the time step. Many impacts add up
     to the residual, so the order is that of their mean."""
     coarse, fine = (
-        mini_books(tmp_path / str(k), ranks=ranks, law=law, style=style, dt=2e-7 / k, steps=1500 * k, until=700 * k)
+        mini_books(
+            tmp_path / str(k),
+            ranks=ranks,
+            law=law,
+            style=style,
+            added=added,
+            dt=2e-7 / k,
+            steps=1500 * k,
+            until=700 * k,
+        )
         for k in (1, 3)
     )
     assert min(fine[part] for part in ("friction", "dashpots", "walls", "gravity")) > 1e-4
@@ -134,8 +145,9 @@ def test_residual_of_a_box_in_motion(tmp_path: Path, law: str, ranks: int, style
         assert abs(got["residual"]) < 1.5e-4 / k**2 * (got["friction"] + got["dashpots"])
 
 
-def test_books_go_on_after_a_restart(tmp_path: Path, law: str, ranks: int) -> None:
-    options = {"ranks": ranks, "law": law, "dt": 2e-7, "steps": 1500, "until": 700}
+@pytest.mark.parametrize("added", ["", ADDED])
+def test_books_go_on_after_a_restart(tmp_path: Path, law: str, ranks: int, added: str) -> None:
+    options = {"ranks": ranks, "law": law, "added": added, "dt": 2e-7, "steps": 1500, "until": 700}
     whole = mini_books(tmp_path, plan="write", **options)
     again = mini_books(tmp_path, plan="read", **options)
     assert again == pytest.approx(whole, rel=1e-9, abs=1e-9 * whole["walls"])

@@ -33,12 +33,14 @@ def momenta(state: Frame) -> np.ndarray:
     )
 
 
-def test_momentum_and_angular_momentum_to_round_off(tmp_path: Path, law: str, ranks: int) -> None:
+@pytest.mark.parametrize("added", ["", "rolling 0.2 0.1 cohesion 2e3"])
+def test_momentum_and_angular_momentum_to_round_off(tmp_path: Path, law: str, ranks: int, added: str) -> None:
     """49 discs of many sizes collide obliquely, with friction and damping. Each contact's forces are opposite and act
-    at one point, so momentum and angular momentum (with the spins) are kept to round-off. Velocities cancel exactly;
+    at one point, and the moments of rolling resistance are opposite too, so momentum and angular momentum (with the spins) are kept to round-off. Velocities cancel exactly;
     a position that moves uniformly is rounded to the same side in each step, 1e-16 x 1500 steps at most."""
     out = run(
-        COLLIDE, tmp_path, discs=cloud(7, speed=4.0), box=(-0.05, 0.05, -0.05, 0.05), ranks=ranks, law=law, dt=3e-7, steps=1500,
+        COLLIDE, tmp_path, discs=cloud(7, speed=4.0), box=(-0.05, 0.05, -0.05, 0.05), ranks=ranks, law=law, added=added,
+        dt=3e-7, steps=1500,
     )  # fmt: skip
     before, after = out.dump("start.dump")[0], out.end
     assert np.count_nonzero(before["omegaz"] != after["omegaz"]) > 40  # many did collide

@@ -12,6 +12,8 @@ import pytest
 from engine import Disc, Frame, run, same_bits
 from scenes import lattice, shifted
 
+ADDED = "rolling 0.05 0.2 cohesion 1"  # at first touch the spring holds
+
 BOUNCE = """
 include ${decks}/start.in
 fix weight grains gravity 2000 vector 0 -1 0
@@ -24,12 +26,12 @@ run ${steps}
 STATE = ("x", "y", "vx", "vy", "omegaz", "fx", "fy", "tqz")
 
 
-@pytest.mark.parametrize("cut", ["no", "yes"])
-def test_contact_starts_afresh(tmp_path: Path, law: str, ranks: int, cut: str) -> None:
+@pytest.mark.parametrize(("cut", "added"), [("no", ""), ("yes", ""), ("no", ADDED)])
+def test_contact_starts_afresh(tmp_path: Path, law: str, ranks: int, cut: str, added: str) -> None:
     """A disc falls obliquely on another and bounces twice, with no rebuild of the neighbour list between. The second
     impact is the same, to the bit, as that of a disc which starts in the flight between the two, without a past."""
     grain, floor = Disc(1e-3, 3.8731e-3, vx=0.05, vy=-0.05, omega=10), Disc(0, 0, type=2)
-    options: dict[str, Any] = {"law": law, "cut": cut, "ranks": ranks, "skin": 1e-3}
+    options: dict[str, Any] = {"law": law, "cut": cut, "added": added, "ranks": ranks, "skin": 1e-3}
     whole = run(BOUNCE, tmp_path / "whole", discs=[grain, floor], steps=600, **options)
     assert "Neighbor list builds = 0" in whole.log
     path = whole.dump("path.dump")
@@ -118,13 +120,16 @@ NEW_IDS = {
 }
 
 
-@pytest.mark.parametrize("change", NEW_IDS)
-def test_history_follows_new_ids(tmp_path: Path, law: str, ranks: int, change: str) -> None:
+@pytest.mark.parametrize(
+    ("change", "added"), [*((change, "") for change in NEW_IDS), ("delete-restart", "rolling 0.3 0.2 cohesion 100")]
+)
+def test_history_follows_new_ids(tmp_path: Path, law: str, ranks: int, change: str, added: str) -> None:
     """A grain far from all others is taken away, which gives new ids to these: the same as if they had kept theirs, to
-    the bit if the order of the ids is the same, as on one rank; else forces are summed in another order."""
+    the bit if the order of the ids is the same, as on one rank; else forces are summed in another order, and the moment of
+    rolling resistance is that on the other disc of a pair."""
     discs, (_, width, _, height) = lattice(6, 6, 1e-6, speed=0.05)
     discs = [Disc(0.019, 0.019), *shifted(discs, -width / 2, -height / 2)]
-    options: dict[str, Any] = {"discs": discs, "law": law, "ranks": ranks, "skin": 1e-3}
+    options: dict[str, Any] = {"discs": discs, "law": law, "added": added, "ranks": ranks, "skin": 1e-3}
     kept = run(RENUMBERED.format(change="delete_atoms group lone compress no"), tmp_path / "kept", **options).end
     new = run(RENUMBERED.format(change=NEW_IDS[change]), tmp_path / "new", **options).end
     assert np.array_equal(kept["id"], np.arange(2, 38))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -59,8 +60,11 @@ def test_shear_spring_in_stick(tmp_path: Path, law: str, ranks: int) -> None:
 SLIDE = """
 include ${decks}/start.in
 fix weight grains gravity ${g} vector 0 -1 0
-fix move grains cdem/integrate
+fix move grains cdem/integrate inertia ${factor}
 timestep ${dt}
+compute energy grains cdem/energy
+thermo_style custom step c_energy[2]
+thermo_modify format float %.17g
 dump d grains custom 2 slide.dump id x y vx omegaz fx
 dump_modify d format float %.17g
 run ${steps}
@@ -69,24 +73,46 @@ run ${steps}
 
 @pytest.mark.parametrize("start", ["thrown", "spun"])
 def test_sliding_ends_in_rolling(tmp_path: Path, law: str, ranks: int, start: str) -> None:
-    """A disc set on a floor slides until it rolls, as in LAMMPS's own tests (there a sphere: 5/7).
+    """As in LAMMPS's own tests (there a sphere: 5/7)."""
+    slide_until_it_rolls(tmp_path, start, law=law, ranks=ranks)
 
-    Angular momentum about the contact is kept, v + r w/2 = const with the inertia m r^2/2 (w: rolling forward):
-    thrown with v0, it ends with v = 2/3 v0 at t = v0/(3 mu g); spun with w0, with v = r w0/3 at t = r w0/(3 mu g).
+
+@pytest.mark.parametrize("start", ["thrown", "spun"])
+@pytest.mark.parametrize("factor", [0.25, 3.0])
+def test_sliding_with_another_inertia(tmp_path: Path, anywhere: dict[str, Any], start: str, factor: float) -> None:
+    slide_until_it_rolls(tmp_path, start, factor, **anywhere)
+
+
+@pytest.mark.parametrize("start", ["thrown", "spun"])
+def test_cohesion_adds_to_the_limit_of_friction(tmp_path: Path, anywhere: dict[str, Any], start: str) -> None:
+    slide_until_it_rolls(tmp_path, start, cohesion=0.5, **anywhere)
+
+
+def slide_until_it_rolls(
+    directory: Path, start: str, factor: float = 1, cohesion: float = 0, **options: Any
+) -> None:
+    """A disc set on a floor slides until it rolls.
+
+    Angular momentum about the contact is kept, v + F r w/2 = const with the inertia F m r^2/2 (w: rolling forward):
+    thrown with v0, it ends with v = v0/(1 + F/2), spun with w0, with v = r w0/(1 + 2/F), either at t = v0/(mu g (1 + 2/F))
+    with v0 = r w0. Friction is that of its weight and of cohesion, which is given in weights: of g (1 + cohesion).
     """
-    g, v0, kn, ks, hs = 10.0, 0.01, 1e5, 1e6, 0.01
+    v0, kn, ks, weight = 0.01, 1e5, 1e6, 10.0
+    hs = 0.01 if factor <= 1 else 0.02  # what is left of sliding decays more slowly
+    g = weight * (1 + cohesion)  # in all that presses
     overlap = Disc(0, 0).mass * g / kn
     y, r = Disc(0, 0).radius - overlap, Disc(0, 0).radius
     disc = Disc(0, y, vx=v0) if start == "thrown" else Disc(0, y, omega=-v0 / r)  # forward is a negative spin
     dt, steps = 2e-6, 2600
     out = run(
-        SLIDE, tmp_path, discs=[disc, FLOOR], box=BOX, ranks=ranks, law=law, kn=kn, ks=ks, hs=hs, g=g, dt=dt, steps=steps,
+        SLIDE, directory, discs=[disc, FLOOR], box=BOX, kn=kn, ks=ks, hs=hs, g=weight, dt=dt, steps=steps, factor=factor,
+        added=f"cohesion {cohesion * disc.mass * weight}" if cohesion else "", **options,
     )  # fmt: skip
     t = dt * np.arange(0, steps + 1, 2)
     vx, omega, fx = (out.series("slide.dump", name)[:, 0] for name in ("vx", "omegaz", "fx"))
 
     # The spring takes mu g m/(ks v0) = 2e-7 s to reach the limit; its dashpot, until then, takes 1e-3 of v0.
-    end = v0 / (3 * MU * g)
+    end = v0 / (MU * g * (1 + 2 / factor))
     limit = MU * disc.mass * g
     assert t[np.abs(fx) > 0.999 * limit].max() == pytest.approx(end, rel=0.005, abs=2 * dt)
     # While it slides, the force is the limit. Coordinates of 10 m have a last bit of 2e-15 m: 5e-8 of the overlap; and
@@ -96,12 +122,14 @@ def test_sliding_ends_in_rolling(tmp_path: Path, law: str, ranks: int, start: st
 
     # Whatever the tangential force is; but downhill on the bent floor the disc gains g t s/R = 1.2e-7 m/s in the end.
     lever = r - overlap / 2
-    conserved = vx - disc.inertia / disc.mass / lever * omega
+    conserved = vx - factor * disc.inertia / disc.mass / lever * omega
     assert conserved == pytest.approx(conserved[0], rel=2e-5)
     # The tangential dashpot ends the oscillation that is left of sliding, exp(-sqrt(3) hs w t) = 1e-4 with w^2 = 3 ks/m.
-    final = v0 * (2 / 3 if start == "thrown" else 1 / 3)
+    final = v0 / (1 + factor / 2 if start == "thrown" else 1 + 2 / factor)
     assert vx[-1] == pytest.approx(final, rel=1e-4)
     assert -omega[-1] * lever == pytest.approx(final, rel=1e-4)
+    energy = factor * disc.inertia * omega[-1] ** 2 / 2
+    assert out.thermo["c_energy[2]"][-1] == pytest.approx(energy, rel=1e-12)
 
 
 IMPACT = """

@@ -18,6 +18,8 @@ from scenes import Box, mini_box
 DECK = (DECKS / "mini_box.in").read_text()
 COLUMNS = ("id", "x", "y", "vx", "vy", "omegaz", "fx", "fy", "tqz", "f_move[1]", "f_move[2]", "f_move[3]", "f_move[4]")
 
+ADDED = "rolling 0.3 0.2 cohesion 40"  # the pull is that of 4e-7 m of overlap
+
 
 def mini(directory: Path, law: str, box: Box | None = None, **options: Any) -> Run:
     discs, default_box = mini_box()
@@ -34,6 +36,11 @@ def law(request: pytest.FixtureRequest) -> str:
 def reference(law: str, tmp_path_factory: pytest.TempPathFactory) -> Run:
     """All in one run on one rank."""
     return mini(tmp_path_factory.mktemp(law), law)
+
+
+@pytest.fixture(scope="module")
+def with_additions(law: str, tmp_path_factory: pytest.TempPathFactory) -> Run:
+    return mini(tmp_path_factory.mktemp(law), law, added=ADDED)
 
 
 def same(a: Run, b: Run) -> bool:
@@ -78,14 +85,30 @@ def test_a_run_without_setup(tmp_path: Path, law: str, ranks: int, style: str, r
 
 
 @pytest.mark.parametrize("instructions", ["avx512", "avx2"])
-def test_vector_width(tmp_path: Path, law: str, instructions: str, reference: Run) -> None:
+@pytest.mark.parametrize("added", ["", ADDED])
+def test_vector_width(
+    tmp_path: Path, law: str, instructions: str, added: str, reference: Run, with_additions: Run
+) -> None:
     if instructions not in Path("/proc/cpuinfo").read_text():
         pytest.skip(f"no {instructions} here")
     deck = DECK.replace('"include ${decks}/start.in"', f'"include ${{decks}}/start.in" "pair_style cdem law ${{law}} '
-                        f'instructions {instructions}" "pair_coeff * * ${{kn}} ${{ks}} ${{hn}} ${{hs}} ${{phi}}"')  # fmt: skip
+                        f'instructions {instructions}" "pair_coeff * * ${{kn}} ${{ks}} ${{hn}} ${{hs}} ${{phi}} ${{added}}"')  # fmt: skip
     assert instructions in deck
     discs, box = mini_box()
-    assert same(reference, run(deck, tmp_path, discs=discs, box=box, law=law))
+    out = run(deck, tmp_path, discs=discs, box=box, law=law, added=added)
+    assert same(with_additions if added else reference, out)
+
+
+@pytest.mark.parametrize("style", ["verlet", "verlet/cdem"])
+@pytest.mark.parametrize(("written_by", "read_by"), [(1, 2), (2, 4), (4, 1)])
+def test_additions_to_the_law(
+    tmp_path: Path, law: str, style: str, written_by: int, read_by: int, with_additions: Run
+) -> None:
+    """Rolling resistance and cohesion: on any number of ranks, in both run styles, and from a restart file, which has the
+    additions and what contacts remember of them."""
+    options: dict[str, Any] = {"added": ADDED, "style": style}
+    assert same(with_additions, mini(tmp_path, law, ranks=written_by, plan="write", **options))
+    assert same(with_additions, mini(tmp_path, law, ranks=read_by, plan="read", style=style))
 
 
 @pytest.mark.parametrize(("written_by", "read_by"), [(1, 4), (2, 1)])

@@ -14,9 +14,12 @@ from scenes import kinetic_energy, lattice
 KN, KS = 1e8, 2.5e7
 
 VIBRATE = """
+variable which index f_move
+variable factor index 1
 include ${decks}/start.in
-fix move grains cdem/integrate dt any
-variable limit equal f_move
+fix move grains cdem/integrate dt any inertia ${factor}
+compute limit all cdem/limit
+variable limit equal ${which}
 thermo_style custom step v_limit
 thermo_modify format float %.17g
 run 0
@@ -27,18 +30,19 @@ run 400
 """
 
 
-def largest_kinetic_energy(directory: Path, fraction: float, h: float, law: str) -> float:
+def largest_kinetic_energy(directory: Path, fraction: float, h: float, law: str, **options: Any) -> float:
     """Of a vibrating lattice over 400 steps, as a multiple of what it has at first."""
     discs, box = lattice(6, 6, 1e-5, speed=0.01)
-    out = run(VIBRATE, directory, discs=discs, box=box, bx="p", by="p", law=law, phi=89, hn=h, hs=h, fraction=fraction)
+    options |= {"discs": discs, "box": box, "bx": "p", "by": "p", "law": law, "phi": 89, "hn": h, "hs": h}
+    out = run(VIBRATE, directory, fraction=fraction, **options)
     kinetic = [kinetic_energy(frame) for frame in out.dump("vibration.dump")]
     return max(kinetic) / kinetic[0]
 
 
-def blows_up(directory: Path, fraction: float, h: float, law: str) -> bool:
+def blows_up(directory: Path, fraction: float, h: float, law: str, **options: Any) -> bool:
     """Whether the energy grows a hundredfold, or so much that the run is stopped."""
     try:
-        return largest_kinetic_energy(directory, fraction, h, law) > 100
+        return largest_kinetic_energy(directory, fraction, h, law, **options) > 100
     except EngineError as stopped:
         return "the run is unstable" in str(stopped)
 
@@ -50,6 +54,20 @@ def test_lattice_is_stable_up_to_the_limit_and_not_beyond(tmp_path: Path, law: s
     for fraction in (0.5, 0.7, 0.8, 0.9, 0.98):
         assert largest_kinetic_energy(tmp_path, fraction, h, law) < 2, fraction
     assert blows_up(tmp_path, 1.03, h, law)
+
+
+@pytest.mark.parametrize(("which", "beyond"), [("f_move", 1.4), ("c_limit", 1.8)])
+@pytest.mark.parametrize(("mu_r", "factor", "h"), [(1, 1, 0), (1, 1, 0.4), (2, 0.5, 0.1), (0, 3, 0), (0.7, 3, 0.1)])
+def test_lattice_that_resists_turning(
+    tmp_path: Path, which: str, beyond: float, mu_r: float, factor: float, h: float
+) -> None:
+    """With rolling resistance, and with another inertia, the limits of the scene and of the contacts are stable, and so are
+    fractions of them. That of the contacts is up to 40 % below the true one, as both discs of a contact may not turn the
+    same way and against each other."""
+    options = {"which": which, "factor": factor, "added": f"rolling {mu_r} {h}"}
+    for fraction in (0.5, 0.8, 0.98):
+        assert largest_kinetic_energy(tmp_path, fraction, h, "direct", **options) < 2, fraction
+    assert blows_up(tmp_path, beyond, h, "direct", **options)
 
 
 @pytest.mark.parametrize("h", [0, 0.215])

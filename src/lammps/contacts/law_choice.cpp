@@ -88,8 +88,12 @@ cdem::Coefficients LawChoice::read_coefficients(int narg, char **arg) {
   std::vector<double> given(parameter_names().size(), 0);
   for (std::size_t p = 0; p < own.size(); p++)
     given[p] = read_parameter(own[p], arg[p]);
+  std::vector<std::string> seen;
   for (int iarg = int(own.size()); iarg < narg;) {
     const std::string name = arg[iarg++];
+    if (std::find(seen.begin(), seen.end(), name) != seen.end())
+      error->all(FLERR, "Pair coeff cdem: {} is given twice", name);
+    seen.push_back(name);
     read_addition(name, narg, arg, iarg, given);
   }
   return cdem::Coefficients(given);
