@@ -88,9 +88,7 @@ def test_cohesion_adds_to_the_limit_of_friction(tmp_path: Path, anywhere: dict[s
     slide_until_it_rolls(tmp_path, start, cohesion=0.5, **anywhere)
 
 
-def slide_until_it_rolls(
-    directory: Path, start: str, factor: float = 1, cohesion: float = 0, **options: Any
-) -> None:
+def slide_until_it_rolls(directory: Path, start: str, factor: float = 1, cohesion: float = 0, **options: Any) -> None:
     """A disc set on a floor slides until it rolls.
 
     Angular momentum about the contact is kept, v + F r w/2 = const with the inertia F m r^2/2 (w: rolling forward):
