@@ -68,9 +68,10 @@ def pairs(directory: Path, speeds: list[float], steps_per_period: int, periods: 
         gap = v * dt * (k + 0.5) / len(speeds) if v > 0 else -REST
         y, d = PITCH * (k + 0.5), Disc(0, 0).diameter
         discs += [Disc(-d - gap, y, vx=v), Disc(0, y)]
+    more: dict[str, Any] = {"added": f"cohesion {PULL}", "hs": 0} | options
     return run(
         PAIRS, directory, discs=discs, box=(-0.02, 0.02, 0, PITCH * len(speeds)), dt=dt, kn=KN, ks=KN,
-        steps=math.ceil(periods * steps_per_period), **({"added": f"cohesion {PULL}", "hs": 0} | options),
+        steps=math.ceil(periods * steps_per_period), **more,
     )  # fmt: skip
 
 

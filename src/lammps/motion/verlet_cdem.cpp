@@ -51,20 +51,18 @@ std::string VerletCDEM::hindrance() const {
   if (force->bond || force->angle || force->dihedral || force->improper || force->kspace)
     return "there are other forces than those of pair style cdem";
   for (int i = 0; i < modify->nfix; i++)
-    if (acts_in_every_step(i))
-      return std::string("fix ") + modify->fix[i]->id + " of style " + modify->fix[i]->style +
+    if (const Fix &fix = *modify->fix[i]; acts_in_every_step(fix, modify->fmask[i]))
+      return std::string("fix ") + fix.id + " of style " + fix.style +
              " acts in every step (for gravity and drag, fix cdem/integrate has keywords)";
   return "";
 }
 
-bool VerletCDEM::acts_in_every_step(int ifix) const {
-  const Fix *const fix = modify->fix[ifix];
-  if (const auto *glides = dynamic_cast<const Glides *>(fix))
+bool VerletCDEM::acts_in_every_step(const Fix &fix, int mask) {
+  if (const auto *glides = dynamic_cast<const Glides *>(&fix))
     return glides->needs_every_step();
   constexpr int WITHIN = FixConst::INITIAL_INTEGRATE | FixConst::POST_INTEGRATE | FixConst::PRE_FORCE |
                          FixConst::PRE_REVERSE | FixConst::POST_FORCE | FixConst::FINAL_INTEGRATE;
-  const int mask = modify->fmask[ifix];
-  return (mask & WITHIN) || ((mask & FixConst::END_OF_STEP) && fix->nevery == 1);
+  return (mask & WITHIN) || ((mask & FixConst::END_OF_STEP) && fix.nevery == 1);
 }
 
 // The next step at whose end a fix or output reads the atoms.

@@ -26,6 +26,7 @@
 namespace LAMMPS_NS {
 
 class DiscPairList;
+class Fix;
 class FixCDEMGrains;
 class FixCDEMIntegrate;
 class SumsSteps;
@@ -40,7 +41,7 @@ public:
 
 private:
   std::string hindrance() const; // what makes all steps those of run_style verlet; empty if nothing does
-  bool acts_in_every_step(int ifix) const;
+  static bool acts_in_every_step(const Fix &, int mask);
   bigint next_look() const;
   bigint next_rebuild() const;
 
