@@ -33,10 +33,11 @@ void VerletCDEM::init() {
   statistics.clear();
   wall_bodies.clear();
   for (int i = 0; i < modify->nfix; i++) {
-    if (auto *fix = dynamic_cast<SumsSteps *>(modify->fix[i]))
-      statistics.push_back(fix);
-    if (auto *fix = dynamic_cast<WallBody *>(modify->fix[i]))
-      wall_bodies.push_back(fix);
+    Fix &fix = *modify->fix[i];
+    if (auto *sums = dynamic_cast<SumsSteps *>(&fix))
+      statistics.push_back(sums);
+    if (auto *wall = dynamic_cast<WallBody *>(&fix))
+      wall_bodies.push_back(wall);
   }
 
   const std::string why = hindrance();
