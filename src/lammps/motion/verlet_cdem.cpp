@@ -52,6 +52,7 @@ std::string VerletCDEM::hindrance() const {
   if (force->bond || force->angle || force->dihedral || force->improper || force->kspace)
     return "there are other forces than those of pair style cdem";
   for (int i = 0; i < modify->nfix; i++)
+    // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): none is null, as it takes from the casts in init()
     if (const Fix &fix = *modify->fix[i]; acts_in_every_step(fix, modify->fmask[i]))
       return std::string("fix ") + fix.id + " of style " + fix.style +
              " acts in every step (for gravity and drag, fix cdem/integrate has keywords)";
