@@ -10,25 +10,26 @@ namespace cdem {
 // A number that pair_coeff gives for two atom types.
 struct Parameter {
   const char *name, *unit;
-  bool zero_allowed = true; // never less than zero
+  bool zero_allowed = true; // negative values never are
   double below = std::numeric_limits<double>::infinity();
 };
 
-// A number that a contact remembers from step to step. It is said of its first disc, that of the grain of the lower id:
-// `odd` if it changes its sign when the two change places.
+// A number that a contact remembers from step to step, as seen from the disc of the grain with the lower id. `odd`: it
+// changes its sign when the two grains change places. Names have 15 letters at most: restart files hold them.
 struct Remembered {
   const char *name, *unit;
   bool odd = false;
 };
 
-// The two grains of a contact, and the radii of the discs that touch; mass and inertia of a wall are infinite.
+// The two grains of a contact (kg, kg m^2), and the radii of the discs that touch (m). Mass and inertia of a wall are
+// infinite.
 struct TwoGrains {
   struct Grain {
     double mass, inertia, radius;
   } a, b;
 };
 
-// 1/(1/x + 1/y), of which one may be infinite.
+// 1/(1/x + 1/y); one of them may be infinite.
 inline double reduced(double x, double y) { return 1 / (1 / x + 1 / y); }
 
 // How a contact resists the motion of its grains, for the stability limit: along its normal and its tangent (N/m,

@@ -17,7 +17,7 @@ const std::vector<Parameter> OWN_PARAMETERS = {
 
 constexpr Remembered TANGENTIAL_SPRING{"es", "N"};
 
-// Calls visit(addition, where its numbers begin) for the additions in use.
+// Calls visit(addition, index of its first parameter, of its first constant) for the additions in use.
 template <class Visit> void for_each_addition(const ContactRules &rules, Visit visit) {
   int constant = 0, parameter = OWN;
   unsigned bit = 1;

@@ -14,17 +14,18 @@ namespace cdem {
 
 std::vector<std::string> accumulation_names();
 
-// Names of all numbers that contacts remember, whatever the law.
+// Names of the numbers that contacts can remember, over all laws.
 std::vector<std::string> all_remembered();
 
-// What pair_coeff gives: first of all the contact law's own parameters, without a name, then those of each addition.
+// Parameters of pair_coeff: the first group has those of the contact law itself and no name; then one group an
+// addition.
 struct ParameterGroup {
   std::string name;
   std::vector<Parameter> parameters;
 };
 const std::vector<ParameterGroup> &parameter_groups();
 
-// Of two atom types: the parameters in the order of the groups, 0 of additions that were not given.
+// Coefficients of two atom types: parameters in the order of the groups, 0 for additions that were not given.
 struct Coefficients {
   std::vector<double> given;
   Material material;
@@ -41,13 +42,13 @@ public:
 
   // All that a contact remembers: the tangential spring (N), then what the law has beside it.
   const std::vector<Remembered> &remembered() const { return names; }
-  int memories() const { return int(names.size()) - 1; } // beside the tangential spring
-  int constants() const { return counts.constants; }     // of a pair, beside PairConstants
-  int books() const { return counts.books; }             // of a pair, beside those of Losses
+  int memories() const { return int(names.size()) - 1; } // in addition to the tangential spring
+  int constants() const { return counts.constants; }     // of a pair, in addition to PairConstants
+  int books() const { return counts.books; }             // of a pair, in addition to those of Losses
 
   // `constants` of a pair of discs.
   void set_constants(const Coefficients &, const TwoGrains &, double *constants) const;
-  // How what is added to springs and dashpots resists.
+  // Stiffness and damping of the law's additions.
   Resistance added_resistance(const double *constants) const;
   Resistance added_resistance(const Coefficients &, const TwoGrains &) const;
 
@@ -57,8 +58,8 @@ public:
   };
   Energy energy(const Material &, const double *constants, const double *remembered, double overlap) const;
 
-  // For a list of pairs that will not know of the next forces: books the part of the dashpots' last forces that belongs
-  // to the step just made (J). `dashpots`: the forces along n and t, then those of what is added; set to 0.
+  // For a list that will be replaced before its next forces: the loss of the dashpots' last forces in the step just
+  // made (J). `dashpots`: the forces along n and t, then those of what is added; set to 0.
   double finish_books(const Contact<double> &, double dt, double *dashpots) const;
 
   ContactRules rules;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The contact laws there are. To add one, include its file and name it in one of the two lists. How the rest of the
-// program sees them is in law_table.h.
+// The list of contact laws. To add one, include its file and add its type to one of the two lists below. law_table.h
+// shows them to the rest of the program.
 #pragma once
 
 #include "contact_law.h"
@@ -10,14 +10,15 @@
 
 #include <array>
 #include <stdexcept>
+#include <string>
 #include <tuple>
 #include <utility>
 
 namespace cdem {
 
-// Of which one is in use.
+// Exactly one of these is in use.
 using Accumulations = std::tuple<DirectAccumulation, IncrementalAccumulation>;
-// Of which any may be added, to all contacts or to those of some atom types. Each has
+// Any of these may be added, to all contacts or to those of some atom types. Each has
 //
 //   NAME, PARAMETERS           as pair_coeff has them
 //   REMEMBERS                  what a contact remembers of it
@@ -30,13 +31,22 @@ using Additions = std::tuple<RollingResistance, Cohesion>;
 
 constexpr int ACCUMULATIONS = std::tuple_size_v<Accumulations>, ADDITIONS = std::tuple_size_v<Additions>;
 
+// Whether restart files have room for the names.
+template <std::size_t n> constexpr bool names_fit(const std::array<Remembered, n> &numbers) {
+  for (const Remembered &number : numbers)
+    if (std::char_traits<char>::length(number.name) > LONGEST_NAME)
+      return false;
+  return true;
+}
+
 template <class Accumulation, bool limit_damping, class... Added> struct ContactLaw {
-  // Numbers of a pair: what its contact remembers beside the tangential spring, constants beside PairConstants, and the
-  // books' beside Losses' own.
+  // How many numbers of a pair the law adds: to what contacts remember (the tangential spring), to PairConstants, and
+  // to Losses.
   static constexpr int MEMORIES = int((Accumulation::REMEMBERS.size() + ... + Added::REMEMBERS.size()));
   static constexpr int CONSTANTS = (0 + ... + Added::CONSTANTS), BOOKS = (0 + ... + Added::BOOKS);
   template <class T> using Books = Losses<T, BOOKS>;
   static_assert(MEMORIES <= MOST_NUMBERS && CONSTANTS <= MOST_NUMBERS && BOOKS <= MOST_NUMBERS);
+  static_assert((names_fit(Accumulation::REMEMBERS) && ... && names_fit(Added::REMEMBERS)));
 
   // The force of a pair, and what its contact remembers, brought forward by the displacement of a step of length dt.
   // With dt = 0 it is the force of the present state, and the memory stays as it is.
@@ -52,7 +62,8 @@ template <class Accumulation, bool limit_damping, class... Added> struct Contact
     return force(c, steady(c.overlap), pair, constants, m, dt, es, memory, books);
   }
 
-  // A step whose forces are still to come, for a list that will not know of it: the dashpots' part of its beginning.
+  // Books the half of the last dashpot forces that belongs to the step just made, for a list that will be replaced
+  // before its next forces.
   static void finish_books(const Contact<double> &c, double dt, Books<double> &books) {
     const Friction<double> nothing{};
     book(books, c.step, {0, 0}, nothing, 0.0, 0.0, Material(), dt);
@@ -64,7 +75,7 @@ template <class Accumulation, bool limit_damping, class... Added> struct Contact
     (finish(Added()), ...);
   }
 
-  // What a contact has stored (J); of what it remembers the tangential spring is the first.
+  // Energy stored in a contact (J). `remembered` begins with the tangential spring.
   template <class Energy>
   static Energy energy(const Material &m, [[maybe_unused]] const double *constant, const double *remembered,
                        double overlap) {
@@ -114,7 +125,7 @@ template <int accumulation, unsigned additions, bool limit_damping>
 using LawOf = decltype(laws::composed<std::tuple_element_t<accumulation, Accumulations>, limit_damping>(
     laws::chosen<additions>(std::make_index_sequence<ADDITIONS>())));
 
-// visit(ContactLaw<...>()) of the law that these rules name.
+// Calls visit with an object of the ContactLaw type that the rules choose.
 template <int accumulation = 0, unsigned additions = 0, class Visit>
 auto with_law(const ContactRules &rules, Visit visit) {
   if (rules.accumulation == accumulation && rules.additions == additions)

@@ -14,4 +14,7 @@ struct ContactRules {
 // The most numbers per pair that a law may have, in addition to the tangential spring and PairConstants.
 constexpr int MOST_NUMBERS = 8;
 
+// Letters of the name of a number that contacts remember. Both are part of what restart files hold.
+constexpr int LONGEST_NAME = 15;
+
 } // namespace cdem

@@ -4,10 +4,10 @@
 //
 //   f_n = k_n overlap - F_c
 //
-// So a contact without load has the overlap F_c/k_n, carries tension in proportion to what it opens from there, and
-// breaks when that is F_c, its tensile limit. It forms anew whenever the discs touch. Friction is limited by e_n =
-// k_n overlap, the repulsive part alone. The force has the potential -F_c overlap: breaking takes F_c^2/(2 k_n) from a
-// contact without load, which goes into its spring and nothing is lost.
+// A contact without load therefore has the overlap F_c/k_n. When pulled, its tension grows in proportion to the
+// opening, and it breaks at F_c, its tensile limit. It forms anew whenever the discs touch. Friction is limited by e_n
+// = k_n overlap, the repulsive part alone. The force has the potential -F_c overlap. To break a contact without load
+// takes the energy F_c^2/(2 k_n), which is stored, not lost.
 #pragma once
 
 #include "core/contact_law.h"
@@ -25,7 +25,7 @@ struct Cohesion {
     constant[0] = parameter[0];
   }
 
-  // It counts for the part of the step in which the discs touched, as the dashpots do.
+  // Weighted like a dashpot: it acts for the part of the step in which the discs touched.
   template <class T, class Share, class Books>
   [[gnu::always_inline]] static void act(const Contact<T> &, const Share &share, const NormalSpring<T> &,
                                          const T *constant, T *, double, Action<T> &action, Books &, std::size_t) {

@@ -7,8 +7,8 @@
 //
 // dtheta is the rotation of one disc against the other, R = r_a r_b/(r_a + r_b), and 1/J the sum of 1/(I + m r^2) of
 // the two. The stiffness is that of a contact B wide whose normal springs are spread evenly over it: k_r = k_n B^2/12;
-// it resists until one edge opens, at M = e_n B/6. So mu_r R = B/6 and k_r = 3 k_n (mu_r R)^2, which is Ai's in two
-// dimensions.
+// it resists until one edge opens, at M = e_n B/6. So mu_r R = B/6 and k_r = 3 k_n (mu_r R)^2, as in Ai et al. for
+// two dimensions.
 #pragma once
 
 #include "core/contact_law.h"

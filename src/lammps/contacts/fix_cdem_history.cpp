@@ -25,7 +25,7 @@ constexpr int VERSION = 1; // of what restart files keep
 // The names of the remembered numbers, in restart files.
 struct Names {
   int count;
-  char name[1 + cdem::MOST_NUMBERS][16];
+  char name[1 + cdem::MOST_NUMBERS][cdem::LONGEST_NAME + 1];
 };
 
 static_assert(cdem::GrainShape::MOST_DISCS <= SHRT_MAX); // a Contact stores the index of a disc as short
