@@ -43,6 +43,12 @@ std::vector<std::string> addition_names() {
 }
 
 // The bit of an addition in ContactRules::additions; 0 if there is none of this name.
+int place_of_law(const std::string &name) {
+  const std::vector<std::string> all = cdem::accumulation_names();
+  const auto found = std::find(all.begin(), all.end(), name);
+  return found == all.end() ? -1 : int(found - all.begin());
+}
+
 unsigned bit_of_addition(const std::string &name) {
   const std::vector<std::string> all = addition_names();
   const auto found = std::find(all.begin(), all.end(), name);
@@ -60,8 +66,8 @@ void LawChoice::read_style(int narg, char **arg) {
   for (int k = 0; k < narg; k += 2) {
     const std::string key = arg[k], value = k + 1 < narg ? arg[k + 1] : "nothing";
     if (key == "law") {
-      rules.accumulation = int(std::find(laws.begin(), laws.end(), value) - laws.begin());
-      if (rules.accumulation == int(laws.size()))
+      rules.accumulation = place_of_law(value);
+      if (rules.accumulation < 0)
         error->all(FLERR, "Pair style cdem: law {}: must be {}", value, joined(laws, " or "));
       law_given = true;
     } else if (key == "limit_damping") {
@@ -181,7 +187,7 @@ void LawChoice::refuse_file(const std::string &why) const {
 }
 
 void LawChoice::take_text(const std::string &all, int **is_set) {
-  const std::vector<std::string> laws = cdem::accumulation_names(), known = parameter_names();
+  const std::vector<std::string> known = parameter_names();
   std::vector<std::size_t> place; // index in `known` of each parameter in the file
   std::istringstream lines(all);
   for (std::string line; std::getline(lines, line);) {
@@ -190,8 +196,8 @@ void LawChoice::take_text(const std::string &all, int **is_set) {
     words >> key;
     if (key == "law") {
       words >> word;
-      rules.accumulation = int(std::find(laws.begin(), laws.end(), word) - laws.begin());
-      if (rules.accumulation == int(laws.size()))
+      rules.accumulation = place_of_law(word);
+      if (rules.accumulation < 0)
         refuse_file("it has law " + word);
     } else if (key == "limit_damping") {
       words >> rules.limit_damping;

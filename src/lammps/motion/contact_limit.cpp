@@ -7,7 +7,6 @@
 #include "host/compat.h"
 
 #include "atom.h"
-#include "force.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +17,7 @@ namespace {
 
 // The contacts of the last forces, in the form that core/contact_network.h needs.
 struct Packing {
-  const PairCDEM &pair;
+  const DiscPairList &contacts;
   const FixCDEMGrains &grains;
   int nlocal;
 
@@ -27,7 +26,6 @@ struct Packing {
   FixCDEMGrains::Inverse inverse(int i) const { return grains.inverse(i); }
 
   template <class Visit> void for_each_touch(int i, Visit visit) const {
-    const DiscPairList &contacts = pair.contacts;
     const GrainRows &rows = contacts.rows;
     const cdem::Disc<double> &centre = rows.of_grain(i);
     for (int own = rows.rows_of(i); own < rows.rows_of(i + 1); own++)
@@ -47,7 +45,6 @@ struct Packing {
 } // namespace
 
 double ContactLimit::find(double guess, double enough) {
-  const auto *const pair = PairCDEM::needed_by("Fix cdem/integrate", lmp);
   weights.resize(atom->nlocal + atom->nghost);
   auto to_ghosts = [this] { Shearbox::forward_comm(lmp, carrier); };
   auto largest = [this](double x) {
@@ -55,7 +52,8 @@ double ContactLimit::find(double guess, double enough) {
     MPI_Allreduce(&x, &most, 1, MPI_DOUBLE, MPI_MAX, world);
     return most;
   };
-  const Packing packing{*pair, *FixCDEMGrains::find(lmp), atom->nlocal};
+  const Packing packing{PairCDEM::needed_by("Fix cdem/integrate", lmp)->contacts, *FixCDEMGrains::find(lmp),
+                        atom->nlocal};
   return cdem::ContactNetwork(packing).step_limit(guess, enough, weights, to_ghosts, largest);
 }
 
