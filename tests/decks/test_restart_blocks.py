@@ -14,7 +14,7 @@ from scenes import mini_box
 
 MARK = struct.pack("i", 0x53426F78)
 SCENE = """
-fix        form all cdem/shape type 1 triple type 2 single type 3 single type 4 single
+fix        form all cdem/shape type 1 triple type 2 single type 3 single type 4 single density 26.5
 fix        move grains cdem/integrate
 fix        lid lid cdem/lid stress 4e5 width 0.032 thickness 0.01 vmax 2
 fix        floor floor cdem/move speed 1 ramp 2e-4
@@ -104,14 +104,14 @@ def test_what_this_version_does_not_know_is_named(
 
 
 def test_fewer_numbers_of_an_atom_are_refused(written: Run, tmp_path: Path) -> None:
-    """The state of a grain is a length and four numbers: a file with three of them must not be read one number off."""
+    """The state of a grain is a length and nine numbers: a file with eight of them must not be read one number off."""
 
     def change(data: bytes) -> bytes:
-        length, shorter = struct.pack("d", 5), struct.pack("d", 4)
+        length, shorter = struct.pack("d", 10), struct.pack("d", 9)
         place = data.find(length, data.find(b"CDEM_GRAINS"))
         assert place > 0
         return data[:place] + shorter + data[place + 8 :]
 
     status, output = read(written, tmp_path, change)
     assert status != 0
-    assert "3 numbers of an atom where 4 are needed: it was written by another version of Shearbox" in output
+    assert "8 numbers of an atom where 9 are needed: it was written by another version of Shearbox" in output

@@ -23,8 +23,9 @@ public:
 
   cdem::LawTable table() const { return cdem::LawTable(rules); }
 
-  // Writes text with the names of all parameters in it, so that a file of another version is never misread. `is_set`:
-  // whether pair_coeff gave the coefficients of two types.
+  // All of it, with the names of all parameters, so that a file of another version is never misread. `is_set`: whether
+  // pair_coeff gave the coefficients of two types.
+  std::string text(int **is_set) const;
   void write(FILE *, int **is_set) const;
   void read(FILE *, int **is_set); // all ranks together; the first one reads the file
 
@@ -34,7 +35,6 @@ public:
 private:
   void read_addition(const std::string &name, int narg, char **arg, int &iarg, std::vector<double> &given);
   double read_parameter(const cdem::Parameter &, const char *word) const;
-  std::string text(int **is_set) const;
   void take_text(const std::string &, int **is_set);
   [[noreturn]] void refuse_file(const std::string &why) const;
 

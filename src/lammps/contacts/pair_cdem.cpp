@@ -106,6 +106,10 @@ void PairCDEM::check_setting() const {
     error->all(FLERR, "Pair style cdem needs a fix cdem/integrate: atoms outside its group are walls");
   if (update->whichflag == 2)
     error->all(FLERR, "Pair style cdem: minimize makes no time steps, which contacts need; use run, with drag");
+  if (Shearbox::command_in_work(lmp) == "rerun")
+    error->all(FLERR,
+               "Pair style cdem: rerun: a dump has neither the springs of contacts nor the angles of grains, and "
+               "forces would be wrong: 'run 0' from restart files, or dump in the run what is needed");
   if (!(neighbor->skin > 0))
     error->all(FLERR,
                "Pair style cdem: the skin of the neighbour list is {}, must be positive: a contact still acts "

@@ -23,7 +23,8 @@
 // Needs dimension 2, atom_style sphere (radii cannot change in a run), atom ids, newton off, comm_modify vel yes, a
 // skin above 0, fix cdem/integrate, and units in which force is mass times acceleration: si, cgs, lj, micro or nano.
 // Radii and masses must be positive, z must be 0. A periodic box must be two diameters of the largest grain or more.
-// minimize is refused, and so are discs with the same centre. Every pair of types needs a pair_coeff, with I <= J.
+// minimize and rerun are refused, and so are discs with the same centre. Every pair of types needs a pair_coeff, with I
+// <= J.
 //
 // eng_vdwl is the energy stored in the contacts: in springs and in additions to the law (J). single(), as in compute
 // pair/local, reads the last step and changes nothing: force (N/m: over the distance of the discs), p1 normal and p2
@@ -67,6 +68,8 @@ public:
   void unpack_forward_comm(int, int, double *) override;
   double memory_usage() override;
 
+  // Law and coefficients of all pairs of types, as text.
+  std::string rules() const { return law.text(setflag); }
   const cdem::Material &material(int itype, int jtype) const { return law.coefficients[itype][jtype].material; }
   // Atom i surrounded by equal grains, with contacts between its type and `other_type`: for the stability limit.
   cdem::AmongItsLike among_its_like(int i, int other_type) const;

@@ -2,23 +2,26 @@
 #include "grains/fix_cdem_grains.h"
 
 #include "host/find_fix.h"
+#include "host/fingerprint.h"
 #include "host/packed_state.h"
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "fmt/format.h"
 #include "memory.h"
 #include "modify.h"
 #include "update.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <string>
 
 using namespace LAMMPS_NS;
 
 namespace {
-constexpr int VERSION = 1; // of what restart files keep
+constexpr int VERSION = 2; // of what restart files keep
 constexpr double UNKNOWN = NAN;
 } // namespace
 
@@ -52,11 +55,101 @@ void FixCDEMGrains::begin_moving(Fix *by) {
   mover->array_atom = state;
 }
 
-bool FixCDEMGrains::knows_acceleration(int i) const {
-  return kept.valid_step == update->ntimestep && !std::isnan(state[i][AX]);
+void FixCDEMGrains::set_clumps(bool yes) {
+  kept.clumps = yes;
+  wd_section = yes;
 }
 
-void FixCDEMGrains::accelerations_are_of_this_step() { kept.valid_step = update->ntimestep; }
+void FixCDEMGrains::keep_forces() {
+  for (int i = 0; i < atom->nlocal; i++) {
+    state[i][FX] = atom->f[i][0];
+    state[i][FY] = atom->f[i][1];
+    state[i][TORQUE] = atom->torque[i][2];
+  }
+}
+
+void FixCDEMGrains::restore_forces() const {
+  for (int i = 0; i < atom->nlocal; i++) {
+    atom->f[i][0] = state[i][FX];
+    atom->f[i][1] = state[i][FY];
+    atom->torque[i][2] = state[i][TORQUE];
+  }
+}
+
+// Between runs nothing is kept: the scene may have changed since the forces were computed.
+void FixCDEMGrains::keep_scene() {
+  if (!scene_is_new)
+    return;
+  scene_is_new = false;
+  for (int i = 0; i < atom->nlocal; i++) {
+    state[i][X] = atom->x[i][0];
+    state[i][Y] = atom->x[i][1];
+  }
+  kept.grains = fingerprint_of_grains();
+  kept.rules = fingerprint_of_rules();
+}
+
+bool FixCDEMGrains::scene_is_as_kept() {
+  int mine = 1, all;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const Shift shift = shift_from_kept(i);
+    mine &= std::fabs(shift.x) <= rounding() && std::fabs(shift.y) <= rounding(); // not if it is NaN
+  }
+  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MIN, world);
+  if (!all || kept.grains != fingerprint_of_grains() || kept.rules != fingerprint_of_rules())
+    return false;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (!shift_from_kept(i).periods) {
+      atom->x[i][0] = state[i][X];
+      atom->x[i][1] = state[i][Y];
+    }
+  return true;
+}
+
+FixCDEMGrains::Periods FixCDEMGrains::periods() const {
+  const bool y = domain->periodicity[1];
+  return {domain->periodicity[0] ? domain->xprd : 0, y ? domain->yprd : 0, y ? domain->xy : 0};
+}
+
+FixCDEMGrains::Shift FixCDEMGrains::shift_from_kept(int i) const {
+  const Periods period = periods();
+  Shift shift{atom->x[i][0] - state[i][X], atom->x[i][1] - state[i][Y], false};
+  const double ny = period.y > 0 ? std::nearbyint(shift.y / period.y) : 0;
+  shift.y -= ny * period.y;
+  shift.x -= ny * period.tilt;
+  const double nx = period.x > 0 ? std::nearbyint(shift.x / period.x) : 0;
+  shift.x -= nx * period.x;
+  shift.periods = nx != 0 || ny != 0;
+  return shift;
+}
+
+// Of a coordinate that LAMMPS has shifted by a period, or scaled to the box and back (m): a few operations, each exact
+// to half of the last bit.
+double FixCDEMGrains::rounding() const {
+  double largest = 0;
+  for (int k = 0; k < 2; k++)
+    largest = std::max({largest, std::fabs(domain->boxlo[k]), std::fabs(domain->boxhi[k]), domain->prd[k]});
+  return 8 * DBL_EPSILON * largest;
+}
+
+// A sum that has the same bits in any order. The place that was kept, since it says which atom it is.
+std::uint64_t FixCDEMGrains::fingerprint_of_grains() const {
+  std::uint64_t mine = 0, all;
+  for (int i = 0; i < atom->nlocal; i++) {
+    Shearbox::Fingerprint grain;
+    for (const double number : {state[i][X], state[i][Y], state[i][ANGLE], atom->v[i][0], atom->v[i][1],
+                                atom->omega[i][2], atom->radius[i], atom->rmass[i]})
+      grain.add(number);
+    mine += grain.add(atom->type[i]).add(is_free(i)).value();
+  }
+  MPI_Allreduce(&mine, &all, 1, MPI_UINT64_T, MPI_SUM, world);
+  return all;
+}
+
+std::uint64_t FixCDEMGrains::fingerprint_of_rules() const {
+  const Periods period = periods();
+  return Shearbox::Fingerprint().add(rules).add(period.x).add(period.y).add(period.tilt).value();
+}
 
 void FixCDEMGrains::set_inverses() {
   inverses.resize(atom->nlocal);
@@ -82,10 +175,7 @@ void FixCDEMGrains::copy_arrays(int i, int j, int) { std::copy_n(state[i], int(N
 
 void FixCDEMGrains::set_arrays(int i) {
   std::fill_n(state[i], int(NCOLUMNS), 0.0);
-  state[i][ANGLE] = UNKNOWN;
-  const bool running = update->whichflag != 0; // then no setup() follows, and a new atom starts with acceleration 0
-  if (!running)
-    state[i][AX] = UNKNOWN;
+  state[i][ANGLE] = state[i][X] = state[i][Y] = UNKNOWN;
 }
 
 void FixCDEMGrains::write_data_section_size(int, int &rows, int &columns) {
@@ -119,12 +209,17 @@ int FixCDEMGrains::unpack_exchange(int i, double *buf) {
   return NCOLUMNS;
 }
 
+// LAMMPS calls this before it packs the grains.
 void FixCDEMGrains::write_restart(FILE *fp) {
+  keep_scene();
   if (comm->me == 0)
     Shearbox::write_state(fp, VERSION, kept);
 }
 
-void FixCDEMGrains::restart(char *buf) { kept = Shearbox::read_state<decltype(kept)>(lmp, style, VERSION, buf); }
+void FixCDEMGrains::restart(char *buf) {
+  kept = Shearbox::read_state<decltype(kept)>(lmp, style, VERSION, buf);
+  scene_is_new = false;
+}
 
 int FixCDEMGrains::pack_restart(int i, double *buf) {
   buf[0] = NCOLUMNS + 1;

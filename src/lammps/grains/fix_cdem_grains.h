@@ -3,6 +3,13 @@
 // lack: which atoms are grains and which are walls, angle and acceleration of each, its inertia, and how a time step is
 // made. The fix stays when fix cdem/integrate is defined anew, so grains keep their angles. The state migrates with the
 // grains and is in restart files.
+//
+// It also has the forces of the last step, on grains and walls: those of the contacts, gravity and drag. A run begins
+// with them, since setup cannot compute them again: in a step the dashpots follow other velocities, and a contact that
+// closed within it has its share of it. So runs cut in two give the bits of one. They hold for the scene to which they
+// belong, and only for it: where each atom is, how it moves, mass, size, type and whether it is a grain, the rules
+// (contact law, shapes, gravity, drag, time step) and the periods of the box. If anything of it has changed, a run
+// begins with the forces that setup computes.
 #pragma once
 
 #include "core/disc_motion.h"
@@ -11,6 +18,7 @@
 #include "atom.h"
 #include "fix.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -35,15 +43,11 @@ public:
   bool is_free(int i) const { return atom->mask[i] & mover->groupbit; }
   int group_of_grains() const { return mover->igroup; }
 
-  // Data files get a section with the angles, since LAMMPS reads no file with a section that it does not know: without
-  // the angles, clumps would be read as others.
-  void angles_matter(bool yes) { wd_section = yes; }
-
   // --- of each atom ---
   // Turned so far, rad; NaN of a grain that has just been made.
   double angle(int i) const { return state[i][ANGLE]; }
   double &angle(int i) { return state[i][ANGLE]; }
-  // At the end of the last step (m/s^2, rad/s^2); x is NaN as long as it is not known.
+  // At the end of the last step (m/s^2, rad/s^2).
   struct Acceleration {
     double x, y, turn;
   };
@@ -57,10 +61,19 @@ public:
     return {inverses[i].mass * atom->f[i][0], inverses[i].mass * atom->f[i][1],
             inverses[i].inertia * atom->torque[i][2]};
   }
-  // Whether the acceleration is that of the present step; else the first step takes it from the forces.
-  bool knows_acceleration(int i) const;
-  void accelerations_are_of_this_step();
-  void forget_accelerations() { kept.valid_step = -1; }
+
+  // --- the forces of the last step, and the scene to which they belong ---
+  // In each step: the forces, before fixes of others add theirs; and that the step has come to its end.
+  void keep_forces();
+  void step_is_done() { scene_is_new = true; }
+  // What the forces depend on beside the grains; from now on.
+  void set_rules(std::uint64_t fingerprint) { rules = fingerprint; }
+  // After a step, keeps the scene; all ranks together.
+  void keep_scene();
+  // Whether the scene is the one that was kept, on all ranks together. Commands may have moved an atom by a period of
+  // the box, or by a rounding error (balance shift): then it is put back where it was.
+  bool scene_is_as_kept();
+  void restore_forces() const;
 
   // --- mass and inertia ---
   // 1/m (1/kg) and 1/I (1/(kg m^2)) of an own atom, 0 for walls: divisions that are done once for many steps.
@@ -73,6 +86,12 @@ public:
   double inertia(int type) const { return inertias[type]; }
   void set_inertias(const std::vector<double> &by_type) { inertias = by_type; }
 
+  // Whether grains may have several discs.
+  bool may_be_clumps() const { return kept.clumps != 0; }
+  // Then data files get a section with the angles, since LAMMPS reads no file with a section that it does not know:
+  // without the angles, clumps would be read as others.
+  void set_clumps(bool yes);
+
   // --- how the time is stepped ---
   // Gravity (m/s^2), drag (1/s), and the share of half a step by which the dashpots' velocity is carried forward (see
   // core/stability.h).
@@ -80,6 +99,7 @@ public:
   cdem::StepRule step_rule() const;
 
   int setmask() override { return 0; }
+  void post_run() override { keep_scene(); }
   double memory_usage() override;
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
@@ -97,16 +117,33 @@ public:
   int size_restart(int) override;
   int maxsize_restart() override;
 
-  enum Column { AX, AY, ALPHA, ANGLE, NCOLUMNS };
+  // Outputs of fix cdem/integrate; force (N) and torque (N m) of the last step; place in the scene that was kept (m).
+  enum Column { AX, AY, ALPHA, ANGLE, NOUTPUTS, FX = NOUTPUTS, FY, TORQUE, X, Y, NCOLUMNS };
 
 private:
+  struct Periods {
+    double x, y, tilt; // m, 0: not periodic
+  };
+  struct Shift {
+    double x, y;  // m, less whole periods
+    bool periods; // whether there were any
+  };
+  Periods periods() const;
+  Shift shift_from_kept(int i) const;
+  double rounding() const;
+  std::uint64_t fingerprint_of_grains() const;
+  std::uint64_t fingerprint_of_rules() const;
+
   double **state = nullptr; // NCOLUMNS per atom
   Fix *mover = nullptr;
   std::vector<Inverse> inverses;
   std::vector<double> inertias; // by type
+  std::uint64_t rules = 0;
+  bool scene_is_new = false; // a step has been made since it was kept
   struct {
-    bigint valid_step = -1; // the step at whose end the accelerations were taken
-  } kept;                   // what restart files keep
+    std::uint64_t grains = 0, rules = 0; // fingerprints of the scene
+    double clumps = 0;
+  } kept; // what restart files keep
 };
 
 } // namespace LAMMPS_NS

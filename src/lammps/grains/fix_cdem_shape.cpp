@@ -2,6 +2,7 @@
 #include "grains/fix_cdem_shape.h"
 
 #include "fmt/format.h"
+#include "grains/fix_cdem_grains.h"
 #include "host/find_fix.h"
 
 #include "atom.h"
@@ -131,14 +132,17 @@ std::vector<Member> FixCDEMShape::read_file(const std::string &name) const {
 
 int FixCDEMShape::setmask() { return 0; }
 
-void FixCDEMShape::init() { set_masses(); }
+void FixCDEMShape::init() {
+  set_masses();
+  refuse_masses_of_circles();
+}
 
 double FixCDEMShape::compute_array(int row, int column) {
   const cdem::GrainShape &shape = *shapes[row + 1];
   double largest = 0;
   for (const Member &d : shape.discs())
     largest = std::max(largest, d.r);
-  const double outputs[] = {static_cast<double>(shape.discs().size()), 1 / largest, shape.area() / M_PI};
+  const double outputs[] = {static_cast<double>(shape.discs().size()), 1 / largest, share(row + 1)};
   return outputs[column];
 }
 
@@ -150,6 +154,41 @@ void FixCDEMShape::set_masses() const {
 void FixCDEMShape::set_mass(int i) const {
   if (density > 0 && (atom->mask[i] & groupbit))
     atom->rmass[i] = density * shapes[atom->type[i]]->area() * atom->radius[i] * atom->radius[i];
+}
+
+double FixCDEMShape::share(int type) const { return shapes[type]->area() / M_PI; }
+
+// Two types with the same mass per circle and other shares of it have two densities: that is no choice of anybody, but
+// what "set density/disc" does. Only grains are looked at: the mass of a wall does not matter. A type has the smallest
+// and the largest value of its atoms.
+void FixCDEMShape::refuse_masses_of_circles() const {
+  constexpr double ROUNDING = 1e-12;
+  const FixCDEMGrains *const grains = FixCDEMGrains::find(lmp);
+  if (!grains || !grains->are_moved())
+    return;
+  const auto per_circle = [this](int i) { return atom->rmass[i] / (M_PI * atom->radius[i] * atom->radius[i]); };
+  std::vector<double> mine(2 * shapes.size(), -INFINITY), all(mine); // by type, the largest value and that of -value
+  for (int i = 0; i < atom->nlocal; i++) {
+    double *const extremes = &mine[2 * atom->type[i]];
+    extremes[0] = std::max(extremes[0], per_circle(i));
+    extremes[1] = std::max(extremes[1], -per_circle(i));
+  }
+  MPI_Allreduce(mine.data(), all.data(), int(mine.size()), MPI_DOUBLE, MPI_MAX, world);
+  for (int i = 0; i < atom->nlocal; i++) {
+    const int own = atom->type[i];
+    if (!grains->is_free(i) || shapes[own]->discs().size() == 1 || (density > 0 && (atom->mask[i] & groupbit)))
+      continue;
+    for (int other = 1; other <= atom->ntypes; other++)
+      for (const double known : {all[2 * other], -all[2 * other + 1]})
+        if (std::fabs(share(other) - share(own)) > ROUNDING &&
+            std::fabs(known - per_circle(i)) <= ROUNDING * per_circle(i))
+          error->one(FLERR,
+                     "Fix cdem/shape: atom {} of type {} has mass {:.6g}, that of the circle around it with {:.6g} "
+                     "kg/m^2 as of type {}; its discs have {:.6g}: give the fix 'density {:.6g}', or "
+                     "'density {:.10g}' if that mass is meant",
+                     atom->tag[i], own, atom->rmass[i], known, other, share(own) * atom->rmass[i], known,
+                     known / share(own));
+  }
 }
 
 void FixCDEMShape::set_arrays(int i) { set_mass(i); }

@@ -12,8 +12,9 @@
 //   folder    where the files of the templates that follow are (default: the current folder)
 //   density   mass per area RHO > 0 (kg/m^2): sets the masses of the group's grains, from the area of the union of the
 //             discs, when the fix is made, at the start of each run, and of grains that arrive in a run as they arrive.
-//             Default: masses are left as they are. Then "set density/disc" gives a clump the mass of its
-//             circumscribed disc
+//             Default: masses are left as they are, as cdem/create, a restart file or "set mass" gave them. Refused
+//             when a run begins are those of "set density/disc", which gives a clump the mass of the circle around it:
+//             they are recognized by another type, with another share of its circle, that has the same mass per circle
 //   orient    a grain of the group that is new in a run is turned to a random angle, once; SEED >= 1. The angle
 //             depends only on SEED and the atom id. Default: angle 0
 //
@@ -65,6 +66,8 @@ private:
   std::vector<cdem::GrainShape::Member> read_discs(Shearbox::DeckWords &) const;
   std::vector<cdem::GrainShape::Member> read_file(const std::string &name) const;
   void set_masses() const;
+  void refuse_masses_of_circles() const;
+  double share(int type) const; // of the circle that the discs fill
   void set_mass(int i) const;
 
   std::string folder;                                  // of template files

@@ -6,13 +6,16 @@
 
 #include "comm.h"
 #include "fix.h"
+#include "input.h"
 #include "lammps.h"
 #include "modify.h"
 #include "neigh_request.h"
 #include "neighbor.h"
 #include "pair.h"
 
+#include <cstring>
 #include <string>
+#include <vector>
 
 #define SHEARBOX_LAMMPS_2022 (LAMMPS_VERSION_NUMBER >= 20220623) // the first stable version with the new interfaces
 
@@ -56,6 +59,31 @@ inline Fix *fix_by_id(LAMMPS *lmp, const std::string &id) {
   const int i = lmp->modify->find_fix(id);
   return i < 0 ? nullptr : lmp->modify->fix[i];
 #endif
+}
+
+// The command of the deck that is being executed. LAMMPS tells nobody else.
+inline std::string command_in_work(LAMMPS *lmp) {
+  struct Look : Input {
+    using Input::command;
+  };
+  const char *const command = lmp->input->*&Look::command;
+  return command ? command : "";
+}
+
+// The ids of fixes of this style whose state a restart file has, and that no fix has taken. LAMMPS forgets them when
+// the first run begins.
+inline std::vector<std::string> states_left(LAMMPS *lmp, const char *style) {
+  struct Look : Modify {
+    using Modify::id_restart_global;
+    using Modify::style_restart_global;
+    using Modify::used_restart_global;
+  };
+  const Modify &all = *lmp->modify;
+  std::vector<std::string> ids;
+  for (int k = 0; k < all.nfix_restart_global; k++)
+    if (!(all.*&Look::used_restart_global)[k] && strcmp((all.*&Look::style_restart_global)[k], style) == 0)
+      ids.emplace_back((all.*&Look::id_restart_global)[k]);
+  return ids;
 }
 
 } // namespace Shearbox

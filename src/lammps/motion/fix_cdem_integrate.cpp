@@ -6,6 +6,7 @@
 #include "grains/fix_cdem_shape.h"
 #include "host/deck_words.h"
 #include "host/find_fix.h"
+#include "host/fingerprint.h"
 #include "host/packed_state.h"
 #include "motion/wall_body.h"
 
@@ -60,7 +61,7 @@ FixCDEMIntegrate::FixCDEMIntegrate(LAMMPS *lmp, int narg, char **arg)
   time_integrate = 1;
   scalar_flag = 1;
   peratom_flag = 1;
-  size_peratom_cols = FixCDEMGrains::NCOLUMNS;
+  size_peratom_cols = FixCDEMGrains::NOUTPUTS;
   peratom_freq = 1;
   restart_global = 1;
   force_reneighbor = 1;
@@ -77,10 +78,7 @@ FixCDEMIntegrate::~FixCDEMIntegrate() {
 // LAMMPS does not let a fix make another one before this call.
 void FixCDEMIntegrate::post_constructor() { take_grains(); }
 
-// The accelerations may be those of an earlier fix of this style, with other forces.
 void FixCDEMIntegrate::take_grains() {
-  if (auto *const known = FixCDEMGrains::find(lmp))
-    known->forget_accelerations();
   grains = FixCDEMGrains::find_or_make(lmp);
   grains->begin_moving(this);
 }
@@ -124,8 +122,8 @@ void FixCDEMIntegrate::tell_grains() {
 }
 
 int FixCDEMIntegrate::setmask() {
-  return FixConst::INITIAL_INTEGRATE | FixConst::PRE_EXCHANGE | FixConst::POST_NEIGHBOR | FixConst::PRE_REVERSE |
-         FixConst::FINAL_INTEGRATE | FixConst::END_OF_STEP;
+  return FixConst::INITIAL_INTEGRATE | FixConst::PRE_EXCHANGE | FixConst::POST_NEIGHBOR | FixConst::PRE_FORCE |
+         FixConst::PRE_REVERSE | FixConst::FINAL_INTEGRATE | FixConst::END_OF_STEP;
 }
 
 void FixCDEMIntegrate::init() {
@@ -138,7 +136,8 @@ void FixCDEMIntegrate::init() {
   audit = FixCDEMAudit::find(lmp);
   tell_grains();
   settle_angles();
-  grains->angles_matter(contacts->rows.has_clumps());
+  refuse_lost_shapes();
+  grains->set_clumps(contacts->rows.has_clumps());
   step.init();
   reset_dt();
 }
@@ -148,6 +147,26 @@ void FixCDEMIntegrate::reset_dt() {
   step.check();
   grains->weight = step.prediction_weight();
   contacts->renew_constants();
+  tell_rules();
+}
+
+void FixCDEMIntegrate::tell_rules() {
+  Shearbox::Fingerprint rules;
+  rules.add(PairCDEM::needed_by("Fix cdem/integrate", lmp)->rules());
+  for (int type = 1; type <= atom->ntypes; type++) {
+    for (const auto &disc : FixCDEMShape::shape(lmp, type).discs())
+      rules.add(disc.x).add(disc.y).add(disc.r);
+    rules.add(grains->inertia(type));
+  }
+  grains->set_rules(rules.add(gravity[0]).add(gravity[1]).add(drag).add(update->dt).value());
+}
+
+void FixCDEMIntegrate::refuse_lost_shapes() const {
+  if (grains->may_be_clumps() && !FixCDEMShape::find(lmp))
+    error->all(FLERR,
+               "Fix cdem/integrate {}: the grains had shapes of several discs so far, and there is no fix cdem/shape: "
+               "define it as it was, or with 'single' for all types to make them discs",
+               id);
 }
 
 // Fixes that move walls (WallBody) check themselves that they have no grains.
@@ -163,22 +182,46 @@ void FixCDEMIntegrate::refuse_second_integrator() const {
   }
 }
 
-// Other fixes may still add to the forces in their setup(). So the accelerations taken here are for output only; the
-// first step computes them again.
-void FixCDEMIntegrate::setup(int) {
-  post_neighbor();
-  guard.begin(smallest_disc(), step.scene_limit());
-  step.setup();
-  to_start.clear();
+// After all init(), where walls have got their velocities, and before atoms go to other ranks. Walls of no fix have no
+// acceleration; those that had been grains would keep theirs. A step that is still to be chosen is another one than
+// that of the forces.
+void FixCDEMIntegrate::setup_pre_exchange() {
+  for (int i = 0; i < atom->nlocal; i++)
+    if (!grains->is_free(i))
+      grains->set_acceleration(i, {0, 0, 0});
+  goes_on = grains->scene_is_as_kept() && !step.is_to_be_chosen();
+}
+
+void FixCDEMIntegrate::setup_post_neighbor() { post_neighbor(); }
+
+// The contacts have to be known before the step can be chosen by them, and the step before they give the forces with
+// which a run begins.
+void FixCDEMIntegrate::setup_pre_force(int) {
+  if (!step.is_to_be_chosen())
+    return;
+  force->pair->compute(0, 0);
+  step.choose_by_contacts();
   for (int i = 0; i < atom->nlocal; i++) {
-    if (grains->is_free(i) && !grains->knows_acceleration(i)) {
-      grains->set_acceleration(i, grains->acceleration_by_forces(i));
-      to_start.push_back(i);
-    }
-    if (std::isnan(grains->acceleration(i).x))
-      grains->set_acceleration(i, {0, grains->acceleration(i).y, grains->acceleration(i).turn});
+    std::fill_n(atom->f[i], 3, 0.0);
+    std::fill_n(atom->torque[i], 3, 0.0);
   }
-  grains->accelerations_are_of_this_step();
+}
+
+// Other fixes may still add to the forces in their setup(). So the accelerations taken here are for output only; the
+// first step computes them again. Those of the last step are those that it will have.
+void FixCDEMIntegrate::setup(int) {
+  guard.begin(smallest_disc(), step.scene_limit());
+  step.begin_run();
+  step.compare_with_contacts();
+  if (!goes_on)
+    take_accelerations();
+  is_first = true;
+}
+
+void FixCDEMIntegrate::take_accelerations() {
+  for (int i = 0; i < atom->nlocal; i++)
+    if (grains->is_free(i))
+      grains->set_acceleration(i, grains->acceleration_by_forces(i));
 }
 
 // Grains may have come.
@@ -219,9 +262,9 @@ void FixCDEMIntegrate::initial_integrate(int) {
     reset_dt();
   if (guard.is_due())
     guard.check();
-  for (int i : to_start)
-    grains->set_acceleration(i, grains->acceleration_by_forces(i));
-  to_start.clear();
+  if (is_first)
+    take_accelerations();
+  is_first = false;
 
   const double dt = update->dt, half = 0.5 * dt;
   for (int i = 0; i < atom->nlocal; i++) {
@@ -240,9 +283,17 @@ void FixCDEMIntegrate::initial_integrate(int) {
 
 // Right after the contacts' forces: fixes that set forces, such as freeze, act on all of them, wherever they are
 // defined.
-void FixCDEMIntegrate::pre_reverse(int, int) { add_body_forces(); }
+void FixCDEMIntegrate::pre_reverse(int, int) {
+  add_body_forces();
+  grains->keep_forces();
+}
 
-void FixCDEMIntegrate::setup_pre_reverse(int, int) { add_body_forces(); }
+void FixCDEMIntegrate::setup_pre_reverse(int, int) {
+  if (goes_on)
+    grains->restore_forces();
+  else
+    add_body_forces();
+}
 
 void FixCDEMIntegrate::add_body_forces() {
   if (!grains->step_rule().has_body_forces())
@@ -286,7 +337,7 @@ void FixCDEMIntegrate::final_integrate() {
     atom->v[i][1] += half * a.y;
     atom->omega[i][2] += half * a.turn;
   }
-  grains->accelerations_are_of_this_step();
+  grains->step_is_done();
 }
 
 double FixCDEMIntegrate::compute_scalar() { return step.scene_limit(); }

@@ -21,7 +21,7 @@
 //                half step
 //   inertia      factor on the moment of inertia of all grains, F > 0 (default: 1), to study how rolling depends on it
 //   rescue       restart file to write when the run fails (default: rescue.restart in the current folder; none beyond
-//                100000 atoms per rank, since the copies from which it is written take about 550 bytes per atom)
+//                100000 atoms per rank, since the copies from which it is written take about 630 bytes per atom)
 //
 // A run that blows up ends with an error that names the step and an atom. The atom has moved by more than a tenth of
 // the smallest disc's radius in one step, has a position, velocity or force that is not a finite number, or has left
@@ -37,7 +37,12 @@
 //
 // Scalar: stability limit of the scene (s), that of the worst packing, see core/stability.h; infinite without grains.
 // Per-atom array: 1, 2 acceleration (m/s^2), 3 angular acceleration (rad/s^2), 4 angle turned so far (rad).
-// A run that is continued, also after a restart, starts from the stored acceleration and so gives the same bits.
+//
+// A run that is continued, also after a restart, begins with the forces of the last step and so gives the same bits,
+// whatever step number it has. If anything has been changed since (grains moved, deleted, of another mass or velocity;
+// coefficients, gravity, time step, box) it begins with those of the scene as it is. The forces of other fixes are
+// taken anew at the start of each run: those that depend on velocities, such as viscous, change the last bits.
+// rerun is refused, and so is a run of clumps without the fix cdem/shape that they had.
 #pragma once
 
 #include "grains/fix_cdem_grains.h"
@@ -70,6 +75,9 @@ public:
   int modify_param(int, char **) override;
   void init() override;
   void reset_dt() override;
+  void setup_pre_exchange() override;
+  void setup_post_neighbor() override;
+  void setup_pre_force(int) override;
   void setup(int) override;
   void pre_exchange() override;
   void post_neighbor() override;
@@ -85,8 +93,6 @@ public:
   void write_restart(FILE *) override;
   void restart(char *) override;
 
-  // Gravity and drag, to the forces of the contacts.
-  void add_body_forces();
   // Books the energy that drag takes out in a step made on the rows, if there is an audit.
   void book_drag(const GrainRows &);
   // Has the neighbour list rebuilt in the next step.
@@ -102,7 +108,11 @@ private:
   void take_grains();
   void tell_grains();
   void settle_angles();
+  void tell_rules();
   void refuse_second_integrator() const;
+  void refuse_lost_shapes() const;
+  void add_body_forces();
+  void take_accelerations();
   double smallest_disc() const;
   template <class Velocity> void book_drag_at(Velocity);
 
@@ -112,8 +122,9 @@ private:
   FixCDEMAudit *audit = nullptr;
   double gravity[2] = {0, 0}, drag = 0; // m/s^2, 1/s
   double inertia_factor = 1;
-  double known_dt = 0;       // s, for which the step has been checked
-  std::vector<int> to_start; // grains whose acceleration was not known at setup
+  double known_dt = 0;   // s, for which the step has been checked
+  bool goes_on = false;  // the run begins with the forces of the last step
+  bool is_first = false; // the next step is the first of a run
 };
 
 } // namespace LAMMPS_NS

@@ -24,7 +24,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 enum Output { APPLIED, FELT, HEIGHT, VELOCITY, CAPPED_STEPS, FORCE_X, NOUTPUTS };
-constexpr int VERSION = 1; // of what restart files keep
+constexpr int VERSION = 2; // of what restart files keep
 } // namespace
 
 FixCDEMLid::FixCDEMLid(LAMMPS *lmp, int narg, char **arg) : WallBody(lmp, narg, arg) {
@@ -85,7 +85,7 @@ void FixCDEMLid::init() {
       error->all(FLERR, "Fix cdem/lid {}: variable {} is not of style equal", id, stress_variable);
   }
   velocity = group_velocity();
-  set_motion({0, velocity}, {0, state.acceleration});
+  set_motion({0, velocity}, {0, acceleration});
 }
 
 // The velocity that all discs have. If they differ (a new lid, or one that was set in motion by hand): momentum over
@@ -126,45 +126,56 @@ void FixCDEMLid::update_stress() {
                stress_variable, stress, update->ntimestep);
 }
 
-void FixCDEMLid::take_acceleration() { state.acceleration = (felt_force - stress * width * thickness) / mass; }
-
-void FixCDEMLid::setup(int) {
-  update_stress();
+void FixCDEMLid::take_acceleration() {
   felt_force = force_y();
-  if (state.valid_step != update->ntimestep)
-    take_acceleration();
-  state.valid_step = update->ntimestep;
-  set_motion({0, velocity}, {0, state.acceleration});
+  acceleration = (felt_force - stress * width * thickness) / mass;
+}
+
+// As final_integrate() has it at the end of a step, whose forces are there. At its cap the lid moves uniformly.
+void FixCDEMLid::start() {
+  take_acceleration();
+  if (velocity <= -fastest() && acceleration < 0)
+    acceleration = 0;
+  set_motion({0, velocity}, {0, acceleration});
   book_start({0, felt_force});
 }
 
+// Other fixes may still add to the forces in their setup(): so the first step starts anew.
+void FixCDEMLid::setup(int) {
+  update_stress();
+  start();
+  is_first = true;
+}
+
 void FixCDEMLid::initial_integrate(int) {
-  velocity += 0.5 * update->dt * state.acceleration;
+  if (is_first)
+    start();
+  is_first = false;
+  velocity += 0.5 * update->dt * acceleration;
   capped = cap();
   shift({0, update->dt * velocity}, {0, velocity});
 }
 
 void FixCDEMLid::final_integrate() {
   update_stress();
-  felt_force = force_y();
-  book_work({0, felt_force});
   take_acceleration();
-  velocity += 0.5 * update->dt * state.acceleration;
+  book_work({0, felt_force});
+  velocity += 0.5 * update->dt * acceleration;
   if (cap()) {
     capped = true;
-    state.acceleration = 0; // at its cap the lid moves uniformly
+    acceleration = 0; // at its cap the lid moves uniformly
   }
-  state.capped_steps += capped;
-  state.valid_step = update->ntimestep;
-  set_motion({0, velocity}, {0, state.acceleration});
+  capped_steps += capped;
+  set_motion({0, velocity}, {0, acceleration});
 }
+
+double FixCDEMLid::fastest() const { return given_cap > 0 ? given_cap : cap_per_force * stress * width * thickness; }
 
 // Limits the speed downward; true if it was higher.
 bool FixCDEMLid::cap() {
-  const double fastest = given_cap > 0 ? given_cap : cap_per_force * stress * width * thickness;
-  if (velocity >= -fastest)
+  if (velocity >= -fastest())
     return false;
-  velocity = -fastest;
+  velocity = -fastest();
   return true;
 }
 
@@ -188,7 +199,7 @@ double FixCDEMLid::compute_vector(int n) {
   case VELOCITY:
     return velocity;
   case CAPPED_STEPS:
-    return state.capped_steps;
+    return capped_steps;
   default:
     return force_x();
   }
@@ -196,7 +207,7 @@ double FixCDEMLid::compute_vector(int n) {
 
 void FixCDEMLid::write_restart(FILE *fp) {
   if (comm->me == 0)
-    Shearbox::write_state(fp, VERSION, state);
+    Shearbox::write_state(fp, VERSION, capped_steps);
 }
 
-void FixCDEMLid::restart(char *buf) { state = Shearbox::read_state<State>(lmp, style, VERSION, buf); }
+void FixCDEMLid::restart(char *buf) { capped_steps = Shearbox::read_state<double>(lmp, style, VERSION, buf); }

@@ -45,19 +45,14 @@ public:
   void restart(char *) override;
 
 private:
-  // What a run that is continued needs, in addition to the velocities of the atoms.
-  struct State {
-    double acceleration;
-    double capped_steps;
-    double valid_step; // the step at whose end the acceleration was taken; -1: never
-  };
-
   void read_stress(Shearbox::DeckWords &);
   double group_velocity() const;
   double largest_stiffness() const;
   double lower_face() const;
   void update_stress();
   void take_acceleration();
+  void start();
+  double fastest() const;
   bool cap();
 
   std::string stress_variable; // empty: constant
@@ -68,9 +63,10 @@ private:
   double mass = 0;
   double cap_per_force = 0; // automatic cap over F
   double felt_force = 0;
-  double velocity = 0;
-  bool capped = false; // in this step
-  State state{0, 0, -1};
+  double velocity = 0, acceleration = 0;
+  bool capped = false;     // in this step
+  bool is_first = false;   // the next step is the first of a run
+  double capped_steps = 0; // in restart files
 };
 
 } // namespace LAMMPS_NS

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "motion/fix_cdem_move.h"
 
+#include "host/compat.h"
 #include "host/packed_state.h"
 
 #include "comm.h"
@@ -52,7 +53,25 @@ FixCDEMMove::FixCDEMMove(LAMMPS *lmp, int narg, char **arg) : WallBody(lmp, narg
   size_vector = NOUTPUTS;
 }
 
+// LAMMPS has given this fix its state by now.
+void FixCDEMMove::post_constructor() {
+  if (speed != 0)
+    left = Shearbox::states_left(lmp, style);
+}
+
+// Fixes that were defined later may have taken theirs.
+void FixCDEMMove::refuse_other_id() const {
+  for (const std::string &other : left)
+    if (!Shearbox::fix_by_id(lmp, other))
+      error->all(
+          FLERR,
+          "Fix cdem/move {}: the restart file has the motion of a fix cdem/move {}, which is not there: name this "
+          "one {} to go on with it; to move anew, define fix {} with speed 0 and unfix it before",
+          id, other, other, other);
+}
+
 void FixCDEMMove::init() {
+  refuse_other_id();
   WallBody::init();
   reset_dt();
   now = motion();
@@ -102,6 +121,7 @@ void FixCDEMMove::final_integrate() {
 }
 
 void FixCDEMMove::setup(int) {
+  apply();
   if (follows_forces())
     book_start(force());
 }

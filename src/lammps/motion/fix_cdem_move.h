@@ -17,10 +17,14 @@
 // Global vector: 1 displacement s (m), 2 speed (m/s), 3 and 4 force f_x and f_y that the grains exert on the wall (N).
 // s follows the closed form, not a sum of steps. It is rounded to a multiple of 2^-50 m. This is not finer than the
 // last bit of a coordinate below 8 m, so increments add up without rounding errors, and the discs keep their distances.
-// Runs continued from restart files give the same bits.
+// Runs continued from restart files give the same bits. The fix must have the ID that it had then: a wall that moves
+// under another ID, while the state of such a fix is left in the file, is refused when the run begins.
 #pragma once
 
 #include "motion/wall_body.h"
+
+#include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -28,6 +32,7 @@ class FixCDEMMove : public WallBody {
 public:
   FixCDEMMove(LAMMPS *, int, char **);
 
+  void post_constructor() override;
   void init() override;
   void initial_integrate(int) override;
   void final_integrate() override;
@@ -39,6 +44,8 @@ public:
   void restart(char *) override;
 
 private:
+  void refuse_other_id() const;
+
   struct Motion {
     double s, speed, acceleration;
   };
@@ -56,6 +63,7 @@ private:
   bool vertical = false;
   Clock clock{0, 0, 0};
   Motion now{0, 0, 0};
+  std::vector<std::string> left; // ids of such fixes in the restart file, when this one was made
 };
 
 } // namespace LAMMPS_NS

@@ -2,6 +2,7 @@
 #include "motion/rescue.h"
 
 #include "contacts/fix_cdem_history.h"
+#include "grains/fix_cdem_grains.h"
 
 #include "atom.h"
 #include "atom_vec.h"
@@ -32,6 +33,7 @@ void Rescue::take() {
 
 void Rescue::pack_atoms(Copy &copy) {
   FixCDEMHistory::find(lmp)->copy_from_list();
+  FixCDEMGrains::find(lmp)->keep_scene();
   constexpr int EXTRA = 1024; // as much as LAMMPS's own buffers have in reserve
   int largest = atom->avec->maxexchange + EXTRA;
   for (int k = 0; k < modify->nfix; k++)

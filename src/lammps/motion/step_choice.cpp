@@ -49,13 +49,6 @@ void StepChoice::init() {
   apply();
 }
 
-void StepChoice::setup() {
-  if (rule == Rule::contacts && kept_step == 0)
-    choose_kept_step();
-  warned = false;
-  compare_with_contacts();
-}
-
 double StepChoice::prediction_weight() const {
   const double dt = update->dt;
   const double least =
@@ -120,8 +113,7 @@ void StepChoice::set_step(double step) {
                    limit);
 }
 
-// Contacts are known from setup on, too late for init().
-void StepChoice::choose_kept_step() {
+void StepChoice::choose_by_contacts() {
   const double stable = contacts.find(limit, INFINITY);
   if (!std::isfinite(stable))
     return;

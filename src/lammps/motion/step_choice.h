@@ -26,8 +26,11 @@ public:
   void check() const;
   // When a run is prepared: computes the limit of the present scene, and chooses or checks the step by it.
   void init();
-  // When contacts are known: chooses the step of `dt contacts`, unless that was done in an earlier run.
-  void setup();
+  // Whether that of `dt contacts` has yet to be chosen: not if that was done in an earlier run.
+  bool is_to_be_chosen() const { return rule == Rule::contacts && kept_step == 0; }
+  // When contacts are known: chooses it.
+  void choose_by_contacts();
+  void begin_run() { warned = false; }
   // Warns, once a run, if the step is beyond the limit of the present contacts.
   void compare_with_contacts();
 
@@ -46,7 +49,6 @@ private:
   void apply();
   double at_most_max(double step) const;
   void set_step(double step);
-  void choose_kept_step();
 
   Rule rule = Rule::check;
   double max_step;

@@ -164,7 +164,7 @@ void VerletCDEM::glide_on(bigint target) {
   comm->forward_comm(); // ghosts may be read, too
   force_clear();
   contacts->forces();
-  integrate->add_body_forces();
+  integrate->pre_reverse(eflag, vflag);
   modify->final_integrate();
 }
 
