@@ -77,7 +77,10 @@ CHANGES = {
     ),
     "another type": ("set atom 1 type 2", "group grains clear\ngroup grains type 1\ngroup walls type 2"),
     "another group": ("", "group grains clear\ngroup grains id 1 3 4"),
-    "created": ("create_atoms 1 single 0 3.97e-3 0\nset atom 6 diameter 4e-3\nset atom 6 density/disc 26.5\ngroup grains type 1", ""),
+    "created": (
+        "create_atoms 1 single 0 3.97e-3 0\nset atom 6 diameter 4e-3\nset atom 6 density/disc 26.5\ngroup grains type 1",
+        "",
+    ),
     "coefficients": ("", "pair_coeff * * 5e7 0 0.215 0 0"),
     "law": ("", "pair_style cdem law direct limit_damping yes\npair_coeff * * 1e8 0 0.4 0 0"),
     "gravity": ("", "fix_modify move gravity 0 -1e5"),
@@ -129,8 +132,10 @@ NOTHING = {
 
 def _mini(folder: Path, plan: str, ranks: int, style: str, **options: Any) -> Any:
     discs, box = mini_box()
-    deck = MINI.replace("run ${until}\" \"run ${rest}", plan).replace('"${plan} == one"', '"${plan} == never"')
-    return run(deck, folder, discs=discs, box=box, plan="two", ranks=ranks, style=style, until=1000, steps=1400, **options)
+    deck = MINI.replace('run ${until}" "run ${rest}', plan).replace('"${plan} == one"', '"${plan} == never"')
+    return run(
+        deck, folder, discs=discs, box=box, plan="two", ranks=ranks, style=style, until=1000, steps=1400, **options
+    )
 
 
 @pytest.fixture(scope="module")
@@ -142,6 +147,72 @@ def uncut(tmp_path_factory: pytest.TempPathFactory) -> Any:
 def test_what_changes_nothing_leaves_the_bits(tmp_path: Path, uncut: Any, what: str, how: dict[str, Any]) -> None:
     commands = '" "'.join(["run 1000", *NOTHING[what].split("\n"), "run 400"])
     assert same_bits(uncut.end, _mini(tmp_path, commands, **how).end, COLUMNS)
+
+
+LAST = """
+compute energy grains cdem/energy audit yes
+thermo_style custom step f_lid[1] f_lid[2] f_lid[4] f_floor[1] f_floor[3] f_floor[4] c_energy[8] c_energy[10]
+thermo_modify format float %.17g
+thermo 1400
+run 1400
+write_restart middle.restart
+run 400
+"""
+
+
+@pytest.mark.parametrize("how", ANYHOW[:2])
+def test_a_run_begins_where_the_last_one_ended(tmp_path: Path, how: dict[str, Any]) -> None:
+    """The forces on lid and floor, and the work in the audit: in the first row of the next run and of one from a restart
+    file, and so at its end too."""
+    commands = '" "'.join(LAST.strip().split("\n"))
+    out = _mini(tmp_path, commands, **how)
+    rows = [line.split() for line in out.log.splitlines() if line.split()[:1] in (["1400"], ["1800"])]
+    assert len(rows) >= 3 and abs(float(rows[0][2])) > 0
+    assert rows[0] == rows[1]
+    again = '" "'.join(line for line in LAST.strip().split("\n") if line != "run 1400")
+    deck = MINI.replace('"${plan} == read"', '"${plan} == never"').replace('"${plan} == one"', '"${plan} == read"')
+    read = run(deck.replace("run ${steps}", again), tmp_path, plan="read", steps=1800, until=1400, **how)
+    first, *_, last = [line.split() for line in read.log.splitlines() if line.split()[:1] in (["1400"], ["1800"])]
+    assert rows[1] == first
+    assert rows[2][:-1] == last[:-1]
+    # the residual is a difference of sums over ranks, of some 0.1 J
+    assert float(rows[2][-1]) == pytest.approx(float(last[-1]), abs=1e-15)
+
+
+OUT_OF_CONTACT = f"""
+{SETTING.replace("FILE", "discs.data")}
+set group all density/disc 26.5
+unfix push
+run 30
+velocity one set 1.5 -2.5 0
+HOW
+write_dump all custom end.dump id vx vy modify sort id format float %.17g
+"""
+HOWS = {
+    "run 0": "displace_atoms one move 0 2e-3 0\nrun 0\nrun 3",
+    "a restart file": """write_restart between.restart
+clear
+newton off
+processors ${px} ${py} 1
+read_restart between.restart
+comm_modify vel yes
+neighbor 0.001 bin
+run_style ${style}
+fix move grains cdem/integrate
+fix floor walls cdem/move speed 0.5 dir y
+set atom 1 y 2e-3
+run 3""",
+    "run every": """run 1 every 1 "displace_atoms one move 0 2e-3 0" "velocity one set 1.5 -2.5 0"
+run 3""",
+}
+
+
+@pytest.mark.parametrize(("how", "where"), zip(HOWS, ANYHOW))
+def test_a_grain_that_was_taken_out_of_contact_keeps_its_velocity(
+    tmp_path: Path, how: str, where: dict[str, Any]
+) -> None:
+    end = run(OUT_OF_CONTACT.replace("HOW", HOWS[how]), tmp_path, discs=DISCS, box=BOX, **where).end
+    assert (end["vx"][0], end["vy"][0]) == (1.5, -2.5)
 
 
 def refused(deck: str, folder: Path, **options: Any) -> str:

@@ -38,11 +38,13 @@
 // Scalar: stability limit of the scene (s), that of the worst packing, see core/stability.h; infinite without grains.
 // Per-atom array: 1, 2 acceleration (m/s^2), 3 angular acceleration (rad/s^2), 4 angle turned so far (rad).
 //
-// A run that is continued, also after a restart, begins with the forces of the last step and so gives the same bits,
-// whatever step number it has. If anything has been changed since (grains moved, deleted, of another mass or velocity;
-// coefficients, gravity, time step, box) it begins with those of the scene as it is. The forces of other fixes are
-// taken anew at the start of each run: those that depend on velocities, such as viscous, change the last bits.
-// rerun is refused, and so is a run of clumps without the fix cdem/shape that they had.
+// A run that is continued, also after a restart, begins with the forces of the last step, in its first output too, and
+// so gives the same bits, whatever step number it has (in a periodic box: those of the run that wrote the restart
+// file). Energy and pressure of the contacts are those that setup computes, where dashpots follow other velocities. If
+// anything has been changed since (grains moved, deleted, of another mass or velocity; coefficients, gravity, time
+// step, box) it begins with those of the scene as it is. The forces of other fixes are taken anew at the start of each
+// run: those that depend on velocities, such as viscous, change the last bits. rerun is refused, and so is a run of
+// clumps without the fix cdem/shape that they had.
 #pragma once
 
 #include "grains/fix_cdem_grains.h"

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // run_style verlet/cdem
 //
-// Velocity Verlet, with the same bits as run_style verlet, but several times faster for pair style cdem. As long as
-// nothing else reads the atoms, steps are made on the rows of the pair style alone (the run glides): the forces of a
-// block of grains and their motion are computed together. LAMMPS's own arrays are brought up to date for every step
-// with output, for a fix or a variable that acts at the end of a step, and for a rebuild of the neighbour list. A step
-// with a rebuild, or in which energy or virial of the pairs is needed, is made by run_style verlet.
+// Velocity Verlet, with the same bits as run_style verlet, but several times faster for pair style cdem. (In a box with
+// a periodic side the last bits may differ: they do with the steps in which LAMMPS shifts grains by a period, and the
+// neighbour list is rebuilt in other ones.) As long as nothing else reads the atoms, steps are made on the rows of the
+// pair style alone (the run glides): the forces of a block of grains and their motion are computed together. LAMMPS's
+// own arrays are brought up to date for every step with output, for a fix or a variable that acts at the end of a step,
+// and for a rebuild of the neighbour list. A step with a rebuild, or in which energy or virial of the pairs is needed,
+// is made by run_style verlet.
 //
 // The neighbour list is rebuilt before any grain can have moved too far for it, whatever neigh_modify every and check
 // say. Only a grain that has more than quadrupled its speed in just that step can be too far: then the rebuild counts
