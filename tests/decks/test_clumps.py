@@ -726,7 +726,7 @@ def test_grains_of_one_disc(tmp_path: Path, law: str, template: str) -> None:
     assert np.count_nonzero(plain["omegaz"] != [d.omega for d in discs]) > 15
     if template == "mixed":
         discs = [*discs, LONG.at(0.035, 0.035, type=3)]
-        shape = f"group grains type 3\nfix shape all cdem/shape type 1 single type 2 single type 3 {LONG.template}\n"
+        shape = f"group grains type 3\nfix shape all cdem/shape type 1 single type 2 single type 3 {LONG.template}\nset type 3 mass 1e-3\n"
     else:
         shape = f"fix shape all cdem/shape type 1 {template} type 2 single\n"
     box = (-0.02, 0.04, -0.02, 0.04)
@@ -977,7 +977,7 @@ def offer(arguments: str, directory: Path) -> tuple[int, str]:
 
 def test_good_templates(tmp_path: Path) -> None:
     for template in ("single", "triple", "file good", "discs 1 0 0 1"):
-        arguments = f"type 1 {template} type 2 single"
+        arguments = f"type 1 {template} type 2 single density 26.5"
         status, output = offer(arguments, tmp_path)
         assert status == 0 and "not refused" in output, arguments
 
@@ -986,7 +986,7 @@ def test_a_template_file_in_another_folder(tmp_path: Path) -> None:
     (tmp_path / "shapes").mkdir()
     (tmp_path / "shapes" / "pair").write_text("0 0 1\n2 0 1\n")
     for folder, name in (("shapes", "pair"), ("nowhere", tmp_path / "shapes" / "pair")):
-        status, output = offer(f"folder {folder} type 1 file {name} type 2 single", tmp_path)
+        status, output = offer(f"folder {folder} type 1 file {name} type 2 single density 26.5", tmp_path)
         assert status == 0 and "not refused" in output, output
 
 

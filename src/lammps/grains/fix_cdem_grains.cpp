@@ -60,6 +60,12 @@ void FixCDEMGrains::set_clumps(bool yes) {
   wd_section = yes;
 }
 
+// If no other fix acts on them, LAMMPS has them still when they are to be kept.
+void FixCDEMGrains::forces_are_there() {
+  if (modify->n_post_force)
+    keep_forces();
+}
+
 void FixCDEMGrains::keep_forces() {
   for (int i = 0; i < atom->nlocal; i++) {
     state[i][FX] = atom->f[i][0];
@@ -81,6 +87,8 @@ void FixCDEMGrains::keep_scene() {
   if (!scene_is_new)
     return;
   scene_is_new = false;
+  if (!modify->n_post_force)
+    keep_forces();
   for (int i = 0; i < atom->nlocal; i++) {
     state[i][X] = atom->x[i][0];
     state[i][Y] = atom->x[i][1];

@@ -63,8 +63,8 @@ public:
   }
 
   // --- the forces of the last step, and the scene to which they belong ---
-  // In each step: the forces, before fixes of others add theirs; and that the step has come to its end.
-  void keep_forces();
+  // In each step: that the forces are there, before fixes of others add theirs; and that the step has come to its end.
+  void forces_are_there();
   void step_is_done() { scene_is_new = true; }
   // What the forces depend on beside the grains; from now on.
   void set_rules(std::uint64_t fingerprint) { rules = fingerprint; }
@@ -128,6 +128,7 @@ private:
     double x, y;  // m, less whole periods
     bool periods; // whether there were any
   };
+  void keep_forces();
   Periods periods() const;
   Shift shift_from_kept(int i) const;
   double rounding() const;

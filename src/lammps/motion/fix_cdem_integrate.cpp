@@ -285,7 +285,7 @@ void FixCDEMIntegrate::initial_integrate(int) {
 // defined.
 void FixCDEMIntegrate::pre_reverse(int, int) {
   add_body_forces();
-  grains->keep_forces();
+  grains->forces_are_there();
 }
 
 void FixCDEMIntegrate::setup_pre_reverse(int, int) {
