@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The three features on curves that have them and on curves that do not."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from synthetic import correlated_noise, curves
@@ -26,6 +28,25 @@ def test_proportional():
     assert verdict.holds is False, "must rise with every stress"
     assert judged(np.array([50.0, 60, 61, 200])).holds is False, "must be a line"
     assert judged(np.array([55.0, 104])).holds is None
+
+
+def test_numbers_do_not_look_like_another_verdict():
+    """R^2 of 0.97996 is not printed as 0.980, nor a rise of 0.004 kPa as 0.0."""
+    tau = np.array([55.0, 104, 104.004, 206])
+    line = replace(fit_line(SIGMA, tau, np.ones(4)), r_squared=0.97996)
+    verdict = features.proportional(SIGMA, tau, line)
+    assert verdict.holds is False
+    assert "R² of the line 0.97996 (≥ 0.98)" in verdict.reason and "+0.004 kPa (> 0)" in verdict.reason
+
+
+def test_a_share_just_below_the_limit_is_not_the_limit():
+    """tau = 100 - (s - 3)^2 is 89.96 at 3 - 3.1686, which is moved to where the lid is steepest."""
+    s = curves(200, 8)["displacement_mm"]
+    lid = fit_curve(s, s**2 - s**3 / 12, through_origin=True)  # steepest at 4
+    tau = fit_curve(s, 100 - (s - 4 + np.sqrt(10.04)) ** 2)
+    verdict = features.peak_at_steepest(tau, find_peak(tau), lid)
+    assert verdict.holds is False
+    assert "τ is 89.96 % of its peak (≥ 90 %)" in verdict.reason
 
 
 def fits(lid: np.ndarray | None = None):

@@ -11,12 +11,14 @@ import pytest
 import synthetic
 
 from shearbox_tools.cli import main
+from shearbox_tools.curves import _stress
 from shearbox_tools.models import INPUT, all_models, find_model, read_variables
 from shearbox_tools.report import minus, number, report
 from shearbox_tools.request import Request
 from shearbox_tools.results import read_results
 from shearbox_tools.specimen import Film, count_lost
 from shearbox_tools.style import PAPER_COLOURS, colours
+from shearbox_tools.summary import summarise
 
 STRESSES = (100.0, 200.0)
 STEPS = [0, 2000000, 4000000]
@@ -136,9 +138,66 @@ def test_an_unfinished_stress_is_said(folder):
     assert not summary(folder)["complete"]
 
 
+def headline(folder: Path) -> str:
+    """What the page says in its largest type, one card a line."""
+    page = report(folder).read_text(encoding="utf-8")
+    return "\n".join(" ".join(re.sub("<[^>]+>", "", big).split()) for big in re.findall(r"<b>(.*?)</b>", page, re.S))
+
+
+def test_the_headline_of_one_specimen_names_what_is_not_in_it(folder):
+    assert re.match(r"(\d+\.\d ± \d+\.\d°)", headline(folder))
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    assert "± of the fit alone; one specimen: its own scatter is not in it" in page
+    assert summary(folder)["interval_holds_scatter_of_specimens"] is False
+
+
+def test_an_unfinished_test_has_no_headline(folder):
+    synthetic.write_shear(folder / "200" / "shear.dat", synthetic.curves(200, 8), slice(0, 13))
+    (folder / "200" / "shear.done").unlink()
+    big = headline(folder)
+    assert "°" not in big and "kPa" not in big
+    assert big.split("\n").count("open") == 3, "all but whether it is quasi-static"
+    result = summary(folder)
+    assert result["phi_deg"] is None and result["doubts"] == ["200 kPa: sheared to 0.12 mm only"]
+    assert [c["holds"] for name, c in result["criteria"].items() if name != "quasi_static"] == [None] * 3
+
+
+def test_a_stress_that_is_missing_leaves_no_headline(folder):
+    record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+    (folder / "run.json").write_text(json.dumps({**record, "stresses": [100, 200, 300]}), encoding="utf-8")
+    result = summarise(read_results(folder))
+    assert result["phi_deg"] is None and result["doubts"] == ["300 kPa: there is no curve"]
+
+
+def test_negative_stress_is_drawn(folder):
+    """The axis of the stress goes as far down as the data: nothing is cut."""
+    curve = synthetic.curves(200, 8)
+    curve["tau_kPa"][400:410] = -300
+    synthetic.write_shear(folder / "200" / "shear.dat", curve)
+    assert _stress(read_results(folder)).axes[0].get_ylim()[0] < -300
+    assert _stress(read_results(folder)).axes[0].get_ylim()[1] > 100
+
+
+def test_a_fast_test_is_said(folder):
+    record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+    record["identity"]["speed_mm_s"] = 1000.0
+    (folder / "run.json").write_text(json.dumps(record), encoding="utf-8")
+    result = summarise(read_results(folder))
+    assert "100 kPa: not quasi-static: inertial number 14" in result["notes"][0]
+    assert result["criteria"]["quasi_static"] == {"holds": False, "reason": "not at 100 kPa, 200 kPa"}
+
+
+def test_the_strength_at_the_end(folder):
+    """Residual 0.3 sigma, reached to 1 % in the last fifth, without noise but for that of the curve."""
+    first = summarise(read_results(folder))["stresses"][0]
+    assert first["tau_ultimate_kPa"] == pytest.approx(np.mean(synthetic.curves(100, 8)["tau_kPa"][640:]), rel=1e-5)
+    assert first["at_end"]["stress_ratio"] == pytest.approx(first["tau_ultimate_kPa"] / 100, rel=1e-5)
+    assert first["at_end"]["is_critical"] and not first["at_peak"]["is_critical"]
+
+
 def test_too_few_rows_are_said(folder):
     synthetic.write_shear(folder / "200" / "shear.dat", synthetic.curves(200, 8), slice(0, 3))
-    assert "200 kPa has 3 rows of data only" in report(folder).read_text(encoding="utf-8")
+    assert "200 kPa has 3 rows at full speed only" in report(folder).read_text(encoding="utf-8")
 
 
 def test_a_curve_that_still_rises_is_said(folder):

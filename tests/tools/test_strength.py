@@ -5,20 +5,8 @@ import numpy as np
 import pytest
 
 from shearbox_tools.strength import fit_line
-from shearbox_tools.student import central_probability, t_quantile
 
 SIGMA = np.array([100.0, 200, 300, 400])
-
-
-@pytest.mark.parametrize(
-    "dof, quantile", [(1, 12.706205), (2, 4.302653), (3, 3.182446), (4, 2.776445), (7, 2.364624), (30, 2.042272)]
-)
-def test_quantiles_of_student(dof, quantile):
-    assert t_quantile(0.95, dof) == pytest.approx(quantile, abs=1e-6)
-
-
-def test_probability_within_one_standard_error_of_many():
-    assert central_probability(1.0, 2000) == pytest.approx(0.682689, abs=2e-4)
 
 
 def test_exact_line():

@@ -15,8 +15,8 @@ from .errors import InputError, ShearboxError
 from .presets import LAWS, REFERENCE, SPEEDS
 
 Commands = argparse._SubParsersAction  # argparse has no public name for it
-DEPENDENCIES = {"numpy": "python3-numpy", "matplotlib": "python3-matplotlib", "jinja2": "python3-jinja2",
-                "rich": "python3-rich"}  # fmt: skip
+DEPENDENCIES = {"numpy": "python3-numpy", "scipy": "python3-scipy", "matplotlib": "python3-matplotlib",
+                "jinja2": "python3-jinja2", "rich": "python3-rich"}  # fmt: skip
 
 
 def main(arguments: list[str] | None = None) -> int:

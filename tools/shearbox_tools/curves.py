@@ -8,7 +8,8 @@ from matplotlib.figure import Figure
 
 from .features import steepest_dilatancy
 from .polynomial import end_zone
-from .results import Results, Shear
+from .results import Results
+from .shear import Shear
 from .strength import Line
 from .style import RC, as_uri, colours
 
@@ -40,18 +41,21 @@ def _palette(results: Results) -> dict[float, str]:
 
 
 def _strength(results: Results) -> Figure:
-    """sigma-tau line through the peaks with its 95 % band."""
+    """sigma-tau line through the peaks of the polynomials with its 95 % band, and the peaks of the smoothed data."""
     figure, axes = _axes("normal stress σ (kPa)", "peak shear stress τ (kPa)")
     end = 1.12 * max(shear.sigma for shear in results.shears)
-    if results.line:
+    if results.line and not results.doubts:
         _draw_line(axes, results.line, end)
     for shear in results.shears:
         axes.errorbar(
             shear.sigma, shear.peak.value, shear.peak.value_error, fmt="o", ms=6, capsize=4, lw=1.4,
-            color=_palette(results)[shear.sigma], mfc="white" if shear.peak.at_boundary else None, zorder=3,
+            color=_palette(results)[shear.sigma], mfc="white" if shear.peak.at_boundary or shear.doubt else None, zorder=3,
         )  # fmt: skip
+        axes.plot(shear.sigma, shear.smoothed.value, "x", ms=6, color=_palette(results)[shear.sigma], zorder=4)
     axes.set_xlim(0, end)
-    axes.set_ylim(0, 1.25 * max(shear.peak.value + shear.peak.value_error for shear in results.shears))
+    lowest = min(shear.peak.value - shear.peak.value_error for shear in results.shears)
+    highest = max(shear.peak.value + shear.peak.value_error for shear in results.shears)
+    axes.set_ylim(min(0, 1.25 * lowest), 1.25 * highest)
     return figure
 
 
@@ -59,24 +63,25 @@ def _draw_line(axes: Axes, line: Line, end: float) -> None:
     sigma = np.linspace(0, end, 100)
     tau, band = line.c_kPa + line.slope * sigma, line.band(sigma)
     label = (
-        f"τ = c + σ tan φ\nφ = {line.phi_deg:.1f} ± {line.phi_half_width_deg:.1f}°\n"
+        f"τ = c + σ tan φ\nφ = {line.phi_deg:.1f} ± {line.phi_half_width_deg:.1f}° (fit alone)\n"
         f"c = {line.c_kPa:.1f} ± {line.c_half_width_kPa:.1f} kPa"
     )
     axes.plot(sigma, tau, color="#555d66", lw=1.4, label=label.replace("-", "−"))
-    axes.fill_between(sigma, tau - band, tau + band, color="#555d66", alpha=0.13, lw=0, label="95 % band")
+    axes.fill_between(sigma, tau - band, tau + band, color="#555d66", alpha=0.13, lw=0, label="95 % band of the fit")
     axes.legend(loc="upper left")
 
 
 def _stress(results: Results) -> Figure:
-    """tau against displacement: raw faint, fit strong, peaks marked."""
+    """tau against displacement: raw faint, fit strong, its peak ringed, that of the smoothed data crossed."""
     figure, axes = _axes(DISPLACEMENT, "shear stress τ (kPa)")
     for shear in results.shears:
         _draw_curve(axes, shear, "tau_kPa", _palette(results)[shear.sigma])
         marker = "D" if shear.peak.at_boundary else "o"
         axes.plot(shear.peak.position, shear.peak.value, marker, ms=5.5, color="white", zorder=4, clip_on=False,
                   mec=_palette(results)[shear.sigma], mew=1.6)  # fmt: skip
+        axes.plot(shear.smoothed.position, shear.smoothed.value, "x", ms=6, color=_palette(results)[shear.sigma])
+    axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
     _finish(axes, results)
-    axes.set_ylim(bottom=0)
     return figure
 
 
@@ -108,7 +113,7 @@ def _rate(results: Results) -> Figure:
 
 def _draw_curve(axes: Axes, shear: Shear, column: str, colour: str) -> None:
     fit = shear.tau if column == "tau_kPa" else shear.lid
-    s = np.linspace(0, fit.span, 400)
+    s = np.linspace(shear.data["displacement_mm"][shear.rows][0], fit.span, 400)
     axes.plot(shear.data["displacement_mm"], shear.data[column], color=colour, lw=0.6, alpha=0.35)
     axes.plot(s, fit.series(s), color=colour, lw=2)
 

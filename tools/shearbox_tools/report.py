@@ -14,8 +14,10 @@ from .drawing import draw_specimen
 from .errors import ShearboxError
 from .files import CURVE, PAGE, SUMMARY, write_json, write_text
 from .models import PARAMETERS, read_comments
-from .results import Results, Shear, read_results
+from .results import Results, read_results
+from .shear import Shear
 from .specimen import Film
+from .strength import KNOWN_SCATTER
 from .summary import phase_logs, summarise
 
 TEMPLATES = Path(__file__).parent / "templates"
@@ -82,7 +84,7 @@ def _page(results: Results, summary: dict[str, Any], pictures: dict[str, str]) -
     environment.filters["minus"] = minus
     return environment.get_template("report.html.j2").render(
         summary=summary, shears=results.shears, line=results.line, pictures=pictures, logs=phase_logs(results),
-        consolidations=results.consolidations,
+        consolidations=results.consolidations, known_scatter=KNOWN_SCATTER,
         comments=_comments(results.model_file),
     )  # fmt: skip
 

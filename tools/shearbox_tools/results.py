@@ -8,60 +8,19 @@ from typing import Any
 
 import numpy as np
 
+from .ensemble import Estimate, as_angle, mean_of
 from .errors import ShearboxError
-from .features import Verdict, dilates, peak_at_steepest, proportional
+from .features import proportional
 from .files import CONSOLIDATED_TABLE, PACKED, PACKED_TABLE, SHEAR_DONE, SHEAR_TABLE, stress_folder
-from .peak import Peak, find_peak
-from .polynomial import FEWEST_ROWS, Fit, fit_curve
-from .readers import Columns, read_row, read_shear
+from .motion import full_speed
+from .peak import Peak
+from .polynomial import FEWEST_ROWS
+from .readers import read_row, read_shear
 from .request import read_record
+from .shear import Shear, analyse
 from .specimen import count_lost
 from .strength import Line, fit_line
-
-
-@dataclass(frozen=True)
-class Shear:
-    """The shear phase at one stress; stresses in kPa, lengths in mm."""
-
-    sigma: float
-    folder: Path
-    data: Columns
-    complete: bool
-    tau: Fit
-    lid: Fit
-    peak: Peak
-    lost: int | None  # grains outside the box in the last frame
-
-    @property
-    def reached(self) -> float:
-        """Shear displacement so far."""
-        return float(self.data["displacement_mm"][-1])
-
-    @cached_property
-    def verdicts(self) -> dict[str, Verdict]:
-        """The features that can be judged for one stress alone."""
-        return {
-            "dilates": dilates(self.lid, self.peak),
-            "peak_at_steepest_dilatancy": peak_at_steepest(self.tau, self.peak, self.lid),
-        }
-
-    @property
-    def felt_error(self) -> float:
-        """Mean stress that the lid feels over the applied one, less 1."""
-        return float(np.mean(self.data["sigma_kPa"]) / self.sigma - 1)
-
-    @property
-    def energy_error(self) -> float | None:
-        """Energy that the audit misses over the work put in: the error of the time step; None without an audit."""
-        work, residual = self.data["work_J"][-1], self.data["residual_J"][-1]
-        return float(residual / work) if work != 0 else None
-
-    @property
-    def dangerous_builds(self) -> int:
-        """Neighbour lists built too late; the counter begins anew when the phase is continued."""
-        counts = self.data["dangerous"]
-        steps = np.diff(counts, prepend=0)
-        return int(np.sum(np.where(steps < 0, counts, steps)))
+from .verdict import Verdict
 
 
 @dataclass(frozen=True)
@@ -83,20 +42,43 @@ class Results:
         """Whether all that was asked for is there, to the end and undamaged."""
         return not self.problems and len(self.shears) == len(self.stresses) and all(s.complete for s in self.shears)
 
+    @property
+    def doubts(self) -> list[str]:
+        """Why there is no strength yet, if so: a line through the peaks is then that of the peaks so far."""
+        missing = sorted(set(self.stresses) - {shear.sigma for shear in self.shears})
+        doubts = [f"{sigma:g} kPa: there is no curve" for sigma in missing]
+        return doubts + [f"{shear.sigma:g} kPa: {shear.doubt}" for shear in self.shears if shear.doubt]
+
     @cached_property
     def line(self) -> Line | None:
-        """Coulomb's line through the peaks, of at least two stresses."""
+        """Coulomb's line through the peaks of the polynomials, of at least two stresses."""
+        return self._line([shear.peak for shear in self.shears])
+
+    @cached_property
+    def smoothed_line(self) -> Line | None:
+        """The same through the peaks of the smoothed data."""
+        return self._line([shear.smoothed for shear in self.shears])
+
+    @cached_property
+    def ultimate_angle(self) -> Estimate | None:
+        """Angle (degrees) whose tangent is the mean of tau / sigma at the end, with its interval over the stresses."""
         if len(self.shears) < 2:
             return None
-        points = [(s.sigma, s.peak.value, s.peak.value_error) for s in self.shears]
-        return fit_line(*np.array(points).T)
+        return as_angle(mean_of(np.array([shear.at_end.ratio for shear in self.shears])))
 
     @cached_property
     def proportional(self) -> Verdict:
         """The feature that needs all stresses."""
-        return proportional(
+        verdict = proportional(
             np.array([s.sigma for s in self.shears]), np.array([s.peak.value for s in self.shears]), self.line
         )
+        return verdict.in_doubt("not all peaks can be judged" if self.doubts else None)
+
+    def _line(self, peaks: list[Peak]) -> Line | None:
+        if len(peaks) < 2:
+            return None
+        points = [(s.sigma, peak.value, peak.value_error) for s, peak in zip(self.shears, peaks)]
+        return fit_line(*np.array(points).T)
 
 
 def read_results(folder: Path) -> Results:
@@ -111,23 +93,22 @@ def read_results(folder: Path) -> Results:
         row = _optional(stress_folder(folder, sigma) / CONSOLIDATED_TABLE, problems)
         if row is not None:
             consolidations[sigma] = row
-        shear = _read_shear(folder, sigma, record["identity"], problems, notes)
+        shear = _read_shear(folder, sigma, record["identity"], row or {}, problems, notes)
         if shear is not None:
             shears.append(shear)
-            if not shear.complete:
-                notes.append(f"{sigma:g} kPa has reached {shear.reached:.2f} mm only")
-            if shear.peak.at_boundary:
-                where = f"{shear.peak.position:.2f} mm"
-                notes.append(
-                    f"{sigma:g} kPa: τ has no peak within the travel; its greatest value, at {where}, is taken"
-                )
+            notes += shear.notes
     identity, stresses = record["identity"], record["stresses"]
     model_file = Path(record.get("model_file", ""))
     return Results(folder, identity, model_file, stresses, packing, consolidations, shears, problems, notes)
 
 
 def _read_shear(
-    folder: Path, sigma: float, identity: dict[str, Any], problems: list[str], notes: list[str]
+    folder: Path,
+    sigma: float,
+    identity: dict[str, Any],
+    bed: dict[str, float],
+    problems: list[str],
+    notes: list[str],
 ) -> Shear | None:
     place = stress_folder(folder, sigma)
     path = place / SHEAR_TABLE
@@ -139,13 +120,12 @@ def _read_shear(
     except ShearboxError as error:
         problems.append(str(error))
         return None
-    if len(data["step"]) < FEWEST_ROWS:
-        notes.append(f"{sigma:g} kPa has {len(data['step'])} rows of data only, too few to fit a curve")
+    rows = full_speed(data)
+    if rows.stop - rows.start < FEWEST_ROWS:
+        notes.append(f"{sigma:g} kPa has {rows.stop - rows.start} rows at full speed only, too few to fit a curve")
         return None
-    tau = fit_curve(data["displacement_mm"], data["tau_kPa"])
-    lid = fit_curve(data["displacement_mm"], data["lid_mm"], through_origin=True)
     lost = _lost(place, identity, problems)
-    return Shear(sigma, place, data, (place / SHEAR_DONE).exists(), tau, lid, find_peak(tau), lost)
+    return analyse(sigma, place, data, rows, (place / SHEAR_DONE).exists(), identity, bed, lost)
 
 
 def _lost(place: Path, identity: dict[str, Any], problems: list[str]) -> int | None:

@@ -9,12 +9,15 @@ import numpy as np
 
 from . import __version__
 from .campaign import read_timings
-from .features import Verdict, steepest_dilatancy
+from .features import steepest_dilatancy
 from .files import PACKED, log_file
 from .logs import Log, read_logs
 from .phases import CONSOLIDATE, PACK, SHEAR
-from .results import Results, Shear
-from .strength import COVERAGE, Line
+from .results import Results
+from .shear import Shear
+from .strength import COVERAGE
+from .stress_dilatancy import Dilatant
+from .verdict import Verdict
 
 DIGITS = 6
 
@@ -33,7 +36,7 @@ def summarise(results: Results) -> dict[str, Any]:
         "complete": results.complete,
         "notes": results.notes,
         "problems": results.problems,
-        **_strength(results.line),
+        **_strength(results),
         "stresses": [_stress(results, shear) for shear in results.shears],
         "criteria": _criteria(results),
         "packing": results.packing,
@@ -44,18 +47,28 @@ def summarise(results: Results) -> dict[str, Any]:
     return _plain(summary)
 
 
-def _strength(line: Line | None) -> dict[str, Any]:
-    if line is None:
-        return {"phi_deg": None, "c_kPa": None}
+def _strength(results: Results) -> dict[str, Any]:
+    """Of one specimen: intervals are of the fit alone. Numbers are null as long as there are doubts."""
+    line, smoothed, ultimate = results.line, results.smoothed_line, results.ultimate_angle
+    if not (line and smoothed and ultimate) or results.doubts:
+        return {"phi_deg": None, "c_kPa": None, "doubts": results.doubts}
     return {
         "phi_deg": line.phi_deg,
         "phi_half_width_deg": line.phi_half_width_deg,
         "c_kPa": line.c_kPa,
         "c_half_width_kPa": line.c_half_width_kPa,
         "coverage": COVERAGE,
+        "specimens": 1,
+        "interval_holds_scatter_of_specimens": False,
+        "doubts": [],
         "r_squared": line.r_squared,
         "chi2_reduced": line.chi2_reduced,
         "phi_through_origin_deg": line.phi_through_origin_deg,
+        "phi_smoothed_deg": smoothed.phi_deg,
+        "phi_smoothed_half_width_deg": smoothed.phi_half_width_deg,
+        "c_smoothed_kPa": smoothed.c_kPa,
+        "phi_ultimate_deg": float(ultimate.value),
+        "phi_ultimate_interval_deg": [float(ultimate.low), float(ultimate.high)],
     }
 
 
@@ -72,6 +85,16 @@ def _stress(results: Results, shear: Shear) -> dict[str, Any]:
         "displacement_at_peak_mm": peak.position,
         "displacement_at_peak_error_mm": peak.position_error,
         "peak_at_boundary": peak.at_boundary,
+        "doubt": shear.doubt,
+        "fitted_from_mm": float(shear.data["displacement_mm"][shear.rows][0]),
+        "fitted_to_mm": float(shear.data["displacement_mm"][shear.rows][-1]),
+        "tau_residual_kPa": shear.residual,
+        "tau_peak_smoothed_kPa": shear.smoothed.value,
+        "tau_peak_smoothed_error_kPa": shear.smoothed.value_error,
+        "displacement_at_smoothed_peak_mm": shear.smoothed.position,
+        "peaks_differ": shear.peaks_differ,
+        "inertial_number": shear.inertia.number,
+        "imbalance_percent": shear.inertia.imbalance_percent,
         "tau_polynomial_degree": shear.tau.degree,
         "lid_polynomial_degree": shear.lid.degree,
         "lid_at_peak_mm": float(shear.lid.series(peak.position)),
@@ -79,6 +102,10 @@ def _stress(results: Results, shear: Shear) -> dict[str, Any]:
         "lid_end_mm": float(shear.lid.series(shear.lid.span)),
         "steepest_dilatancy_mm_per_mm": rate,
         "displacement_at_steepest_mm": steepest,
+        "tau_ultimate_kPa": shear.ultimate[0],
+        "tau_ultimate_error_kPa": shear.ultimate[1],
+        "at_peak": _dilatancy(shear.at_peak),
+        "at_end": _dilatancy(shear.at_end),
         "trm": float(shear.data["trm"][-1]),
         "felt_stress_mean_kPa": float(np.mean(shear.data["sigma_kPa"])),
         "felt_stress_error_percent": 100 * shear.felt_error,
@@ -91,15 +118,32 @@ def _stress(results: Results, shear: Shear) -> dict[str, Any]:
     }
 
 
+def _dilatancy(state: Dilatant) -> dict[str, float | bool | None]:
+    return {
+        "stress_ratio": state.ratio,
+        "dilation_deg": state.dilation_deg,
+        "is_critical": state.is_critical,
+        "phi_plane_strain_deg": state.plane_strain_deg,
+        "phi_cv_rowe_deg": state.critical_by_rowe_deg,
+        "phi_cv_bolton_deg": state.critical_by_bolton_deg,
+    }
+
+
 def _criteria(results: Results) -> dict[str, Any]:
-    """The three features: that of all stresses together, and those that must hold for every stress."""
+    """What is judged of all stresses together, and what must hold for every stress."""
     criteria = {"proportional": _verdict(results.proportional)}
-    for name in ("dilates", "peak_at_steepest_dilatancy"):
-        verdicts = [shear.verdicts[name].holds for shear in results.shears]
-        failed = [f"{s.sigma:g} kPa" for s, holds in zip(results.shears, verdicts) if not holds]
-        reason = f"not at {', '.join(failed)}" if failed else f"at all {len(verdicts)} stresses"
-        criteria[name] = {"holds": not failed if verdicts else None, "reason": reason}
+    for name in ("dilates", "peak_at_steepest_dilatancy", "quasi_static"):
+        criteria[name] = _verdict(_of_all([(s.sigma, s.verdicts[name].holds) for s in results.shears]))
     return criteria
+
+
+def _of_all(judged: list[tuple[float, bool | None]]) -> Verdict:
+    failed, open_ = ([f"{sigma:g} kPa" for sigma, holds in judged if holds is what] for what in (False, None))
+    if failed:
+        return Verdict(False, f"not at {', '.join(failed)}")
+    if open_ or not judged:
+        return Verdict(None, f"cannot be judged at {', '.join(open_) or 'any stress'}")
+    return Verdict(True, f"at all {len(judged)} stresses" if len(judged) > 1 else f"at {judged[0][0]:g} kPa")
 
 
 def _verdict(verdict: Verdict) -> dict[str, Any]:

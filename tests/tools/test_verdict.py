@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Numbers beside a verdict never look as if it were another."""
+
+import pytest
+
+from shearbox_tools.verdict import Verdict, told_apart
+
+
+@pytest.mark.parametrize(
+    "value, limit, digits, text",
+    [
+        (95.0, 90, 0, "95"),
+        (89.96, 90, 0, "89.96"),
+        (90.04, 90, 0, "90.04"),
+        (90.0, 90, 0, "90"),
+        (0.97951, 0.98, 3, "0.9795"),
+        (0.9799996, 0.98, 3, "0.9799996"),
+        (-0.0004, 0, 3, "-0.0004"),
+        (float("nan"), 0, 1, "nan"),
+    ],
+)
+def test_as_many_digits_as_it_takes(value: float, limit: float, digits: int, text: str) -> None:
+    assert told_apart(value, limit, digits) == text
+
+
+def test_a_doubt_leaves_the_numbers() -> None:
+    verdict = Verdict(True, "τ is 95 %")
+    assert verdict.in_doubt(None) is verdict
+    assert verdict.in_doubt("sheared to 0.13 mm only") == Verdict(None, "sheared to 0.13 mm only; so far τ is 95 %")

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The shear phase at one stress, analysed."""
+
+import sys
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.stats import linregress
+
+from .features import dilates, peak_at_steepest
+from .peak import Peak, find_peak
+from .polynomial import Fit, fit_curve
+from .quasistatic import Inertia, imbalance_percent, inertial_number
+from .readers import Columns
+from .smoothed import find_smoothed_peak
+from .stress_dilatancy import Dilatant, ultimate, ultimate_rows
+from .verdict import Verdict, told_apart
+
+# limits beyond which a peak is not taken for the strength, this project's choice
+LARGEST_ERROR_PERCENT = 25
+LEAST_TRAVEL_PERCENT = 1  # of the width
+LEAST_TRAVEL_WITHOUT_PEAK_PERCENT = 5
+
+
+@dataclass(frozen=True)
+class Shear:
+    """Stresses in kPa, lengths in mm. The curves are fitted to the rows at full speed."""
+
+    sigma: float
+    folder: Path
+    data: Columns
+    complete: bool
+    width: float
+    rows: slice  # at full speed
+    tau: Fit
+    lid: Fit
+    peak: Peak  # of the polynomial, as in the paper
+    smoothed: Peak  # of the smoothed data
+    inertia: Inertia
+    lost: int | None  # grains outside the box in the last frame
+
+    @property
+    def reached(self) -> float:
+        """Shear displacement so far."""
+        return float(self.data["displacement_mm"][-1])
+
+    @property
+    def residual(self) -> float:
+        """Root mean square distance of the stress, averaged over blocks, from its polynomial."""
+        return float(np.sqrt(np.mean((self.tau.y - self.tau.fitted) ** 2)))
+
+    @property
+    def peaks_differ(self) -> bool:
+        """Whether the two peaks are apart by more than their standard errors together.
+
+        They come from the same data: on curves that a polynomial follows, 4 of 150 pairs were.
+        """
+        return abs(self.peak.value - self.smoothed.value) > self.peak.value_error + self.smoothed.value_error
+
+    @cached_property
+    def doubt(self) -> str | None:
+        """Why the peak cannot be taken for the strength, if so."""
+        if not self.complete:
+            return f"sheared to {self.reached:.2f} mm only"
+        percent = 100 * self.peak.value_error / max(self.peak.value, sys.float_info.min)
+        if percent > LARGEST_ERROR_PERCENT:
+            return (
+                f"τ = {self.peak.value:.0f} ± {self.peak.value_error:.0f} kPa is too uncertain "
+                f"(error ≤ {LARGEST_ERROR_PERCENT} %)"
+            )
+        travel = 100 * self.reached / self.width
+        least = LEAST_TRAVEL_WITHOUT_PEAK_PERCENT if self.peak.at_boundary else LEAST_TRAVEL_PERCENT
+        if travel < least:
+            without = " without a peak" if self.peak.at_boundary else ""
+            return f"sheared by {told_apart(travel, least, 1)} % of the width{without} (≥ {least} %)"
+        return None
+
+    @cached_property
+    def verdicts(self) -> dict[str, Verdict]:
+        """What can be judged for one stress alone."""
+        return {
+            "dilates": dilates(self.lid, self.peak).in_doubt(self.doubt),
+            "peak_at_steepest_dilatancy": peak_at_steepest(self.tau, self.peak, self.lid).in_doubt(self.doubt),
+            "quasi_static": self.inertia.quasi_static,
+        }
+
+    @property
+    def notes(self) -> list[str]:
+        """What a reader of the numbers must know."""
+        notes, where = [], f"{self.sigma:g} kPa"
+        if not self.complete:
+            notes.append(f"{where} has reached {self.reached:.2f} mm only")
+        elif self.doubt:
+            notes.append(f"{where}: the peak cannot be judged: {self.doubt}")
+        if self.peak.at_boundary:
+            at = f"{self.peak.position:.2f} mm"
+            notes.append(f"{where}: τ has no peak within the travel; its greatest value, at {at}, is taken")
+        if self.peaks_differ:
+            notes.append(
+                f"{where}: the polynomial's peak, {_of(self.peak)}, is not that of the smoothed data, "
+                f"{_of(self.smoothed)}; it misses the data by {self.residual:.1f} kPa (root mean square)"
+            )
+        if self.verdicts["quasi_static"].holds is False:
+            notes.append(f"{where}: not quasi-static: {self.verdicts['quasi_static'].reason}; shear more slowly")
+        return notes
+
+    @cached_property
+    def ultimate(self) -> tuple[float, float]:
+        """Ultimate stress and its standard error: of the last fifth of the rows at full speed."""
+        return ultimate(self.data["tau_kPa"][self.rows])
+
+    @property
+    def at_peak(self) -> Dilatant:
+        """Stress ratio and dilatancy at the peak of the polynomial."""
+        return Dilatant(self.peak.value / self.sigma, float(self.lid.series.deriv()(self.peak.position)))
+
+    @cached_property
+    def at_end(self) -> Dilatant:
+        """Those of the last fifth; the dilatancy is the slope of a line through the lid's heights."""
+        s, lid = (self.data[name][self.rows] for name in ("displacement_mm", "lid_mm"))
+        last = ultimate_rows(len(s))
+        return Dilatant(self.ultimate[0] / self.sigma, float(linregress(s[last], lid[last]).slope))
+
+    @property
+    def felt_error(self) -> float:
+        """Mean stress that the lid feels over the applied one, less 1."""
+        return float(np.mean(self.data["sigma_kPa"]) / self.sigma - 1)
+
+    @property
+    def energy_error(self) -> float | None:
+        """Energy that the audit misses over the work put in: the error of the time step; None without an audit."""
+        work, residual = self.data["work_J"][-1], self.data["residual_J"][-1]
+        return float(residual / work) if work != 0 else None
+
+    @property
+    def dangerous_builds(self) -> int:
+        """Neighbour lists built too late; the counter begins anew when the phase is continued."""
+        counts = self.data["dangerous"]
+        steps = np.diff(counts, prepend=0)
+        return int(np.sum(np.where(steps < 0, counts, steps)))
+
+
+def analyse(
+    sigma: float,
+    folder: Path,
+    data: Columns,
+    rows: slice,
+    complete: bool,
+    identity: dict[str, Any],
+    bed: dict[str, float],
+    lost: int | None,
+) -> Shear:
+    """Fit the curves to at least FEWEST_ROWS rows of `data`, and find their peaks.
+
+    identity is that of the run; bed is the table of the consolidated specimen, empty where there is none.
+    """
+    s, tau = data["displacement_mm"][rows], data["tau_kPa"][rows]
+    curve, lid = fit_curve(s, tau), fit_curve(s, data["lid_mm"][rows], through_origin=True)
+    upper = data.get("tau_upper_kPa")
+    imbalance = None if upper is None else imbalance_percent(tau, upper[rows])
+    inertia = Inertia(_inertial_number(sigma, identity, bed), imbalance)
+    width = 1000 * identity["model width"]
+    peaks = find_peak(curve), find_smoothed_peak(s, tau)
+    return Shear(sigma, folder, data, complete, width, rows, curve, lid, *peaks, inertia, lost)
+
+
+def _inertial_number(sigma: float, identity: dict[str, Any], bed: dict[str, float]) -> float | None:
+    """I; None where grains, their density or the specimen are not recorded."""
+    try:
+        density, height = float(identity["parameters"]["density"]), bed["height_m"]
+        area = bed["solid_fraction"] * identity["model width"] * height / bed["grains"]
+    except (KeyError, ValueError, ZeroDivisionError):
+        return None
+    return inertial_number(identity["speed_mm_s"] / 1000, 1000 * sigma, area, density, height)
+
+
+def _of(peak: Peak) -> str:
+    return f"{peak.value:.0f} ± {peak.value_error:.0f} kPa at {peak.position:.2f} mm"

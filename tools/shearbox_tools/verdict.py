@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What is judged by rule: whether it holds, and the numbers that say so, with as many digits as it takes to see it."""
+
+from dataclasses import dataclass
+
+MOST_DIGITS = 15
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Whether something holds (None: cannot be judged) and the numbers that say so."""
+
+    holds: bool | None
+    reason: str
+
+    def in_doubt(self, doubt: str | None) -> "Verdict":
+        """The same, or where there is a doubt about what it is judged by: not judged, with the numbers so far."""
+        return Verdict(None, f"{doubt}; so far {self.reason}") if doubt else self
+
+
+def told_apart(value: float, limit: float, digits: int, sign: str = "") -> str:
+    """The value with at least `digits` decimals, and more where rounding would bring it to the limit or beyond."""
+    for count in range(digits, MOST_DIGITS):
+        text = f"{value:{sign}.{count}f}"
+        if (float(text) > limit, float(text) < limit) == (value > limit, value < limit):
+            return text
+    return f"{value:{sign}.{MOST_DIGITS}f}"
