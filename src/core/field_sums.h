@@ -12,8 +12,8 @@
 //             squares, with weights s m)
 //   fabric    sum w n n / sum w; of the forces: sum w fn n n / sum w fn, and sum w ft (t n + n t)/2 / sum w fn
 //
-// If the forces on each grain cancel, the sum of -l f over all branches is that of x f over the points x where the grains
-// press on walls with f (Love, Weber).
+// If the forces on each grain cancel, the sum of -l f over all branches is that of x f over the points x where the
+// grains press on walls with f (Love, Weber).
 #pragma once
 
 #include "cell_grid.h"
