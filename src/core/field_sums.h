@@ -75,6 +75,8 @@ public:
     unit[STRESS_XX] = unit[STRESS_YY] = unit[STRESS_XY] = unit[STRESS_YX] = r * f;
     for (int q = FN; q < QUANTITIES; q++)
       unit[q] = f;
+    for (int q = 0; q < QUANTITIES; q++)
+      per_unit[q] = 1 / unit[q];
   }
 
   void add(const Grain &g, const Outline &outline) {
@@ -169,7 +171,7 @@ private:
 
   void add(int k, std::initializer_list<Term> terms) {
     for (const auto &[quantity, value] : terms)
-      sums[k][quantity].add(value / unit[quantity]);
+      sums[k][quantity].add(value * per_unit[quantity]);
   }
   double sum(int k, Quantity q) const { return sums[k][q].value() * unit[q]; }
   // Of the deviations of two quantities from their means.
@@ -190,7 +192,7 @@ private:
   }
 
   CellGrid grid;
-  std::array<double, QUANTITIES> unit; // of each sum; a power of 2, by which nothing is rounded
+  std::array<double, QUANTITIES> unit, per_unit; // of each sum; powers of 2, by which nothing is rounded
   std::vector<Cell> sums;
 };
 
