@@ -219,6 +219,7 @@ def test_cells_add_up_to_the_average(tmp_path: Path, shape: str) -> None:
     whole = values(done)
     parts = {n: np.array([done.thermo[f"c_{n}[{k}]"][-1] for k in range(1, len(FIELDS) + 1)]) for n in names}
     assert (parts["same"] == parts["right"]).all()
+    assert whole["grains"] == pytest.approx(SIDE * (SIDE - 1), rel=1e-12)
     by_cell = cells(done)
     for field in ["solid", "grains", "stress_xx", "stress_yy", "stress_xy", "stress_yx"]:
         k = FIELDS.index(field)
