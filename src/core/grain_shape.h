@@ -10,6 +10,8 @@
 // count once.
 #pragma once
 
+#include "outline.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -42,6 +44,9 @@ public:
       unit_inertia = 0.5;
     }
     survey_surface();
+    for (std::size_t k = 0; k < members.size(); k++)
+      for (const Arc &arc : exposed(k))
+        rim.push_back({members[k].x, members[k].y, members[k].r, arc.from, arc.to});
     for (const Member &d : members)
       furthest = std::max(furthest, std::hypot(d.x, d.y));
   }
@@ -56,7 +61,8 @@ public:
 
   // Relative to the centre of mass, in units of the circumscribed radius (the largest distance from centre to rim).
   const std::vector<Member> &discs() const { return members; }
-  double area() const { return unit_area; }       // over radius^2
+  double area() const { return unit_area; } // over radius^2
+  const Outline &outline() const { return rim; }
   double inertia() const { return unit_inertia; } // over mass radius^2
 
   // For the stability limit: how many neighbours of the size of the grain's own discs fit around it (six around a
@@ -287,6 +293,7 @@ private:
 
   std::vector<Member> members;
   double unit_area, unit_inertia, furthest = 0;
+  Outline rim;
   Surface surface;
 };
 

@@ -22,7 +22,15 @@ STYLES = {
         "cdem/shape",
         "cdem/trm",
     },
-    "compute": {"cdem/contacts", "cdem/discs", "cdem/energy", "cdem/limit", "cdem/trm"},
+    "compute": {
+        "cdem/average",
+        "cdem/contacts",
+        "cdem/discs",
+        "cdem/energy",
+        "cdem/grid",
+        "cdem/limit",
+        "cdem/trm",
+    },
     "command": {"cdem/create"},
     "run": {"verlet/cdem"},
 }

@@ -23,8 +23,10 @@ ContactReport::Contact ContactReport::contact(int k) const {
   const auto [fx, fy] = list.pairs.force[k];
 
   Contact c;
-  c.tag_a = atom->tag[rows.grain(p)];
-  c.tag_b = atom->tag[rows.grain(q)];
+  c.grain_a = rows.grain(p);
+  c.grain_b = rows.grain(q);
+  c.tag_a = atom->tag[c.grain_a];
+  c.tag_b = atom->tag[c.grain_b];
   c.disc_a = rows.disc(p);
   c.disc_b = rows.disc(q);
   c.nx = dx / distance;

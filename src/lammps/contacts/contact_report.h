@@ -20,6 +20,7 @@ public:
   // opened within the step is included, with the part of its forces that still acts and an overlap below zero.
   struct Contact {
     tagint tag_a, tag_b;
+    int grain_a, grain_b; // of this rank's atoms, own or ghost
     int disc_a, disc_b;
     double x, y;   // contact point
     double fn, ft; // with dashpots; fn > 0 repels

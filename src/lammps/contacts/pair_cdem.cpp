@@ -147,6 +147,16 @@ void PairCDEM::init_style() {
   if (!history)
     history = static_cast<FixCDEMHistory *>(modify->add_fix(std::string(FixCDEMHistory::ID) + " all cdem/history"));
   contacts.init(law.table(), law.coefficients, law.instructions, history);
+  if (update->whichflag != 0) // else no run begins
+    warn_of_misreaders(lmp, scene());
+}
+
+Scene PairCDEM::scene() const {
+  int mine = 0, walls;
+  for (int i = 0; i < atom->nlocal; i++)
+    mine = mine || !grains->is_free(i);
+  MPI_Allreduce(&mine, &walls, 1, MPI_INT, MPI_MAX, world);
+  return {contacts.rows.has_clumps(), walls != 0};
 }
 
 // Of the grains that are there, and of those that fixes pour and deposit will bring.

@@ -28,12 +28,16 @@
 //
 // eng_vdwl is the energy stored in the contacts: in springs and in additions to the law (J). single(), as in compute
 // pair/local, reads the last step and changes nothing: force (N/m: over the distance of the discs), p1 normal and p2
-// tangential force with their dashpots, p3 tangential spring (N), summed over the discs of two grains.
+// tangential force with their dashpots, p3 tangential spring (N), summed over the discs of two grains. It is one force
+// along the line of the centres, so what LAMMPS makes of it lacks friction. A warning as a run begins names the
+// computes and fixes of LAMMPS that are wrong here, and those of ours that are right (misreaders.cpp has the list).
+// Computes pe, pe/atom, pair, pressure, stress/atom, ke and those of places and velocities are right.
 #pragma once
 
 #include "contacts/contact_report.h"
 #include "contacts/disc_pair_list.h"
 #include "contacts/law_choice.h"
+#include "contacts/misreaders.h"
 #include "core/stability.h"
 
 #include "pair.h"
@@ -83,6 +87,7 @@ private:
   void check_atoms() const;
   void check_periods() const;
   void find_largest_radii();
+  Scene scene() const;
   void tally();
 
   LawChoice law;

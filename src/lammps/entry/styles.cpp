@@ -14,9 +14,11 @@
 #include "motion/fix_cdem_lid.h"
 #include "motion/fix_cdem_move.h"
 #include "motion/verlet_cdem.h"
+#include "output/compute_cdem_average.h"
 #include "output/compute_cdem_contacts.h"
 #include "output/compute_cdem_discs.h"
 #include "output/compute_cdem_energy.h"
+#include "output/compute_cdem_grid.h"
 #include "output/compute_cdem_limit.h"
 #include "output/compute_cdem_trm.h"
 #include "output/fix_cdem_trm.h"
@@ -70,9 +72,11 @@ const std::vector<Shearbox::Style> &Shearbox::styles() {
       fix<FixCDEMLid>("cdem/lid"),
       fix<FixCDEMMove>("cdem/move"),
       fix<FixCDEMTRM>("cdem/trm"),
+      compute<ComputeCDEMAverage>("cdem/average"),
       compute<ComputeCDEMContacts>("cdem/contacts"),
       compute<ComputeCDEMDiscs>("cdem/discs"),
       compute<ComputeCDEMEnergy>("cdem/energy"),
+      compute<ComputeCDEMGrid>("cdem/grid"),
       compute<ComputeCDEMLimit>("cdem/limit"),
       compute<ComputeCDEMTRM>("cdem/trm"),
       command<CDEMCreate>("cdem/create"),

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "output/compute_cdem_average.h"
+
+#include "update.h"
+
+using namespace LAMMPS_NS;
+
+static std::string name(char **arg) { return fmt::format("Compute cdem/average {}", arg[0]); }
+
+ComputeCDEMAverage::ComputeCDEMAverage(LAMMPS *lmp, int narg, char **arg)
+    : Compute(lmp, narg, arg), fields(lmp, name(arg), groupbit, {lmp, name(arg), narg, arg, 3}, arg),
+      values(fields.columns()) {
+  vector_flag = 1;
+  extvector = 0;
+  size_vector = fields.columns();
+  vector = values.data();
+}
+
+void ComputeCDEMAverage::init() { fields.init(); }
+
+void ComputeCDEMAverage::compute_vector() {
+  invoked_vector = update->ntimestep;
+  values = fields.rows(1, 1).front();
+  vector = values.data();
+}
