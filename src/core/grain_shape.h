@@ -8,12 +8,16 @@
 //   polar second moment = 1/3 integral of x^3 dy - y^3 dx
 // Each integrand is a polynomial in cos and sin of the arc's angle, so the result is exact to round-off, and overlaps
 // count once.
+//
+// A template may also be a piece of a straight wall (wall_line.h).
 #pragma once
 
 #include "outline.h"
+#include "wall_line.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -58,6 +62,20 @@ public:
     const double height = std::sqrt(3.0);
     return GrainShape({{-1, 0, 1}, {1, 0, 1}, {0, height, 1}});
   }
+
+  // A piece of a straight wall along a unit vector. Half its length and the radius of its ends are half of the
+  // circumscribed radius. It is always part of a wall, which does not turn.
+  static GrainShape line(double ux, double uy) {
+    GrainShape piece = single();
+    piece.members.front().r = 0.5;
+    piece.unit_area = 1 + M_PI / 4;
+    piece.unit_inertia = INFINITY;
+    piece.direction = {ux, uy};
+    return piece;
+  }
+  bool is_line() const { return direction.has_value(); }
+  // Only of a piece of a wall: its axis, when it is scaled to this radius (m).
+  WallLine axis(double radius) const { return {direction->x, direction->y, 0.5 * radius}; }
 
   // Relative to the centre of mass, in units of the circumscribed radius (the largest distance from centre to rim).
   const std::vector<Member> &discs() const { return members; }
@@ -291,7 +309,12 @@ private:
     }
   };
 
+  struct Direction {
+    double x, y;
+  };
+
   std::vector<Member> members;
+  std::optional<Direction> direction; // of a piece of a wall
   double unit_area, unit_inertia, furthest = 0;
   Outline rim;
   Surface surface;

@@ -46,8 +46,17 @@ ContactReport::Contact ContactReport::contact(int k) const {
 std::vector<ContactReport::DiscPlace> ContactReport::discs() const {
   const GrainRows &rows = list.rows;
   std::vector<DiscPlace> all;
-  for (int p = 0; p < rows.rows_of(atom->nlocal); p++)
-    all.push_back({rows.grain(p), rows.disc(p), rows[p].x, rows[p].y, rows.radius(p)});
+  for (int p = 0; p < rows.rows_of(atom->nlocal); p++) {
+    if (!rows.is_line(p)) {
+      all.push_back({rows.grain(p), rows.disc(p), rows[p].x, rows[p].y, rows.radius(p)});
+      continue;
+    }
+    const auto [ux, uy, half] = rows.line(p);
+    for (int end : {0, 1}) {
+      const double along = end ? half : -half;
+      all.push_back({rows.grain(p), end, rows[p].x + along * ux, rows[p].y + along * uy, rows.radius(p)});
+    }
+  }
   return all;
 }
 

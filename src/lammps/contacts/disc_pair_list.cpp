@@ -52,6 +52,7 @@ void DiscPairList::rebuild(const NeighList *of_grains) {
 
 void DiscPairList::pair_forces(int block) {
   has_history = true;
+  feet.place(block);
   const double dt = update->setupflag ? 0 : update->dt;
   cdem::PairColumns columns = pairs.columns(slots.data());
   if (fetches_ahead)
@@ -173,6 +174,7 @@ void DiscPairList::build() {
       // The order of all sums: by the id of the grain, then by the disc.
       pairs, row_starts, [this](int p) { return std::pair(atom->tag[rows.grain(p)], rows.disc(p)); },
       [this](int p) { return !grains->is_free(rows.grain(p)); });
+  feet.take_over(pairs);
   history->expect_at_most(most_pairs());
   constexpr double SECOND_CACHE = 2e6; // of a core, bytes
   fetches_ahead = pairs.bytes() + rows.bytes() + slots.bytes() > SECOND_CACHE;
@@ -238,12 +240,23 @@ template <class Visit> void DiscPairList::for_each_candidate(int i, Visit visit)
       continue;
     for (int p = rows.rows_of(i); p < rows.rows_of(i + 1); p++)
       for (int q = rows.rows_of(j); q < rows.rows_of(j + 1); q++) {
-        const double dx = rows[p].x - rows[q].x, dy = rows[p].y - rows[q].y, square = dx * dx + dy * dy;
-        const double reach = rows.radius(p) + rows.radius(q) + skin;
+        const double square = square_distance(p, q), reach = rows.radius(p) + rows.radius(q) + skin;
         if (square < reach * reach)
           visit(p, q, square);
       }
   }
+}
+
+// Of two discs, or of a disc and the axis of a piece of a line.
+double DiscPairList::square_distance(int p, int q) const {
+  if (rows.has_lines()) {
+    if (rows.is_line(p))
+      return cdem::square_distance(rows[q], rows[p], rows.line(p));
+    if (rows.is_line(q))
+      return cdem::square_distance(rows[p], rows[q], rows.line(q));
+  }
+  const double dx = rows[p].x - rows[q].x, dy = rows[p].y - rows[q].y;
+  return dx * dx + dy * dy;
 }
 
 // Segments are in the order of blocks, and within a block in that of materials.
@@ -381,6 +394,7 @@ void DiscPairList::close_list() {
 void DiscPairList::finish_step_in_books() {
   if (!pairs.has_books())
     return;
+  feet.place_all();
   pairs.for_each([this](int k, const cdem::Material &) {
     const auto relative = cdem::relative(rows[pairs.a(k)], rows[pairs.b(k)]);
     const auto contact = cdem::contact_of(relative, cdem::distance_of(relative), pairs.constants(k), update->dt);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "contacts/fix_cdem_history.h"
+#include "contacts/line_feet.h"
 #include "core/disc_pairs.h"
 #include "core/force_kernel.h"
 #include "core/law_table.h"
@@ -24,7 +25,7 @@ class Pair;
 class DiscPairList : protected Pointers, public ContactList {
 public:
   // `pair` sends the rows of own grains (see GrainRows) to their ghosts, by rows.pack() and rows.unpack().
-  DiscPairList(LAMMPS *lmp, Pair *pair) : Pointers(lmp), rows(lmp), carrier(pair) {}
+  DiscPairList(LAMMPS *lmp, Pair *pair) : Pointers(lmp), rows(lmp), feet(lmp, rows), carrier(pair) {}
 
   // Coefficients by the types of two atoms, from 1 on; index 0 is not used.
   using ByTypes = std::vector<std::vector<cdem::Coefficients>>;
@@ -102,6 +103,9 @@ private:
   };
   double most_moved() const;
 
+  double square_distance(int p, int q) const;
+
+  LineFeet feet;
   Pair *const carrier;
   FixCDEMAudit *audit = nullptr;
   FixCDEMGrains *grains = nullptr;

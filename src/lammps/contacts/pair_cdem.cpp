@@ -129,6 +129,11 @@ void PairCDEM::check_atoms() const {
     if (atom->x[i][2] != 0)
       error->one(FLERR, "Pair style cdem: atom {} is at z = {}, must be 0: LAMMPS takes distances in three dimensions",
                  atom->tag[i], atom->x[i][2]);
+    if (grains->is_free(i) && contacts.rows.shape_of_type(atom->type[i]).is_line())
+      error->one(FLERR,
+                 "Pair style cdem: atom {} of type {} is a piece of a wall (template line of fix cdem/shape), must not "
+                 "be in the group of fix cdem/integrate",
+                 atom->tag[i], atom->type[i]);
     if (radius > largest)
       error->one(FLERR,
                  "Pair style cdem: atom {} of type {} has radius {}, larger than all of its type as the run began, {}: "
@@ -141,12 +146,13 @@ void PairCDEM::init_style() {
   grains = FixCDEMGrains::find(lmp);
   check_setting();
   find_largest_radii();
-  check_atoms();
   check_periods();
   Shearbox::request_half_size_list(lmp, this, instance_me);
   if (!history)
     history = static_cast<FixCDEMHistory *>(modify->add_fix(std::string(FixCDEMHistory::ID) + " all cdem/history"));
   contacts.init(law.table(), law.coefficients, law.instructions, history);
+  check_atoms();
+  check_lines();
   if (update->whichflag != 0) // else no run begins
     warn_of_misreaders(lmp, scene());
 }
@@ -157,6 +163,23 @@ Scene PairCDEM::scene() const {
     mine = mine || !grains->is_free(i);
   MPI_Allreduce(&mine, &walls, 1, MPI_INT, MPI_MAX, world);
   return {contacts.rows.has_clumps(), walls != 0};
+}
+
+bool PairCDEM::resists_slip(const cdem::Coefficients &c) const {
+  const cdem::TwoGrains::Grain any{1, 1, 1};
+  const cdem::Resistance::Part turning = contacts.law.added_resistance(c, {any, any}).turning;
+  return c.material.mu > 0 || turning.stiffness > 0 || turning.dashpot > 0;
+}
+
+// A contact with a wall's line remembers nothing: the disc may go from one piece of the wall to the next.
+void PairCDEM::check_lines() const {
+  for (int line = 1; line <= atom->ntypes; line++)
+    for (int other = 1; other <= atom->ntypes && contacts.rows.shape_of_type(line).is_line(); other++)
+      if (setflag[std::min(line, other)][std::max(line, other)] && resists_slip(law.coefficients[line][other]))
+        error->all(FLERR,
+                   "Pair style cdem: pair_coeff {} {}: atoms of type {} are pieces of a smooth wall (template line of "
+                   "fix cdem/shape): phi and rolling must be 0",
+                   std::min(line, other), std::max(line, other), line);
 }
 
 // Of the grains that are there, and of those that fixes pour and deposit will bring.

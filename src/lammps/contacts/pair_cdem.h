@@ -85,6 +85,8 @@ private:
   void allocate();
   void check_setting() const;
   void check_atoms() const;
+  void check_lines() const;
+  bool resists_slip(const cdem::Coefficients &) const;
   void check_periods() const;
   void find_largest_radii();
   Scene scene() const;

@@ -77,6 +77,9 @@ void FixCDEMShape::read_template(Shearbox::DeckWords &words) {
   if (word == "single" || word == "triple") {
     shapes[type] = word == "single" ? cdem::GrainShape::single() : cdem::GrainShape::triple();
     return;
+  } else if (word == "line") {
+    shapes[type] = read_line(words);
+    return;
   } else if (word == "discs") {
     discs = read_discs(words);
   } else if (word == "file") {
@@ -84,13 +87,21 @@ void FixCDEMShape::read_template(Shearbox::DeckWords &words) {
     source += " " + name;
     discs = read_file(name);
   } else {
-    error->all(FLERR, "Fix cdem/shape: type {}: unknown template {}; allowed: single, triple, discs, file", type, word);
+    error->all(FLERR, "Fix cdem/shape: type {}: unknown template {}; allowed: single, triple, discs, file, line", type,
+               word);
   }
   try {
     shapes[type].emplace(discs);
   } catch (const std::invalid_argument &bad) {
     error->all(FLERR, "Fix cdem/shape: type {}, {}: {}", type, source, bad.what());
   }
+}
+
+cdem::GrainShape FixCDEMShape::read_line(Shearbox::DeckWords &words) const {
+  const double ux = words.finite("line UX"), uy = words.finite("line UY"), length = std::hypot(ux, uy);
+  if (!(length > 0))
+    error->all(FLERR, "Fix cdem/shape: line {} {}: must be a vector that is not zero", ux, uy);
+  return cdem::GrainShape::line(ux / length, uy / length);
 }
 
 std::vector<Member> FixCDEMShape::read_discs(Shearbox::DeckWords &words) const {

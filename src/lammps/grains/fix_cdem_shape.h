@@ -9,6 +9,7 @@
 //             discs N x y r ...    N discs, at most 1000, in any unit, about any origin. They may overlap and must be
 //                                  connected; none may lie inside another
 //             file NAME            the same from a file with a line "x y r" per disc; # starts a comment
+//             line UX UY           not a grain: a piece of a straight, smooth wall along the vector (UX, UY)
 //   folder    where the files of the templates that follow are (default: the current folder)
 //   density   mass per area RHO > 0 (kg/m^2): sets the masses of the group's grains, from the area of the union of the
 //             discs, when the fix is made, at the start of each run, and of grains that arrive in a run as they arrive.
@@ -17,6 +18,12 @@
 //             they are recognized by another type, with another share of its circle, that has the same mass per circle
 //   orient    a grain of the group that is new in a run is turned to a random angle, once; SEED >= 1. The angle
 //             depends only on SEED and the atom id. Default: angle 0
+//
+// An atom of radius R with the template line is a wall R thick and R long, with rounded ends in addition. Pieces that
+// meet, such as atoms R apart in a row along (UX, UY), are one wall; it may turn a corner where pieces of two types
+// meet. A disc touches a wall at the point that is closest, as it would touch a wall disc of radius R/2 there, but
+// without friction: phi and rolling must be 0 for contacts of these types. Such an atom is always a wall, never a grain
+// of fix cdem/integrate.
 //
 // Every atom type needs one template. Centre of mass, area and inertia are those of the union of the discs, see
 // core/grain_shape.h. At most one fix of this style may exist. Without it, all atoms are single discs.
@@ -63,6 +70,7 @@ public:
 
 private:
   void read_template(Shearbox::DeckWords &);
+  cdem::GrainShape read_line(Shearbox::DeckWords &) const;
   std::vector<cdem::GrainShape::Member> read_discs(Shearbox::DeckWords &) const;
   std::vector<cdem::GrainShape::Member> read_file(const std::string &name) const;
   void set_masses() const;

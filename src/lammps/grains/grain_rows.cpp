@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 using namespace LAMMPS_NS;
 
@@ -22,18 +23,27 @@ void GrainRows::init(FixCDEMGrains *fix, const cdem::Kernels &fastest) {
   for (int type = 1; type <= atom->ntypes; type++)
     shapes.push_back(&FixCDEMShape::shape(lmp, type));
   clumps = std::any_of(shapes.begin() + 1, shapes.end(), [](const auto *s) { return s->discs().size() > 1; });
+  lines = std::any_of(shapes.begin() + 1, shapes.end(), [](const auto *s) { return s->is_line(); });
 }
 
 void GrainRows::map() {
   const int nall = atom->nlocal + atom->nghost;
   grains.resize(nall);
-  if (!clumps)
-    return;
+  radii.clear();
+  if (clumps)
+    map_clumps();
+  else if (lines)
+    for (int i = 0; i < nall; i++)
+      radii.push_back(atom->radius[i] * shapes[atom->type[i]]->discs().front().r);
+  make_feet({});
+}
+
+void GrainRows::map_clumps() {
+  const int nall = atom->nlocal + atom->nghost;
   bodies.resize(nall);
   first_row.resize(nall + 1);
   grain_of_row.clear();
   offsets.clear();
-  radii.clear();
   for (int i = 0; i < nall; i++) {
     first_row[i] = int(grain_of_row.size());
     for (const auto &disc : shapes[atom->type[i]]->discs()) {
@@ -43,7 +53,12 @@ void GrainRows::map() {
     }
   }
   first_row[nall] = int(grain_of_row.size());
-  disc_rows.resize(grain_of_row.size());
+}
+
+void GrainRows::make_feet(std::vector<int> pieces) {
+  piece_of_foot = std::move(pieces);
+  first_foot = rows_of(atom->nlocal + atom->nghost);
+  (clumps ? disc_rows : grains).resize(first_foot + piece_of_foot.size());
 }
 
 double GrainRows::reach(int i) const { return atom->radius[i] * shapes[atom->type[i]]->reach(); }

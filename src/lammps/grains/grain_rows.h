@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The grains as the contact law reads them. A row is the record of a disc: position and velocities (cdem::Disc). There
 // is a row for each grain, own ones and then ghosts. If any grain has several discs (a clump), there is also a row for
-// each disc. Between two rebuilds of the neighbour list, run_style verlet/cdem makes steps on the rows alone; otherwise
-// the rows are filled from the atoms' arrays in every step.
+// each disc. Last come the feet of discs on lines of walls (contacts/line_feet.h), if there are any. Between two
+// rebuilds of the neighbour list, run_style verlet/cdem makes steps on the rows alone; otherwise the rows are filled
+// from the atoms' arrays in every step.
 #pragma once
 
 #include "core/column.h"
@@ -31,18 +32,37 @@ public:
   void map();
 
   bool has_clumps() const { return clumps; }
+  bool has_lines() const { return lines; }
   // Rows are in the order of the atoms; rows_of(n) is the number of rows of the first n. If all grains are single
   // discs, row i is that of atom i.
   int rows_of(int natoms) const { return clumps ? first_row[natoms] : natoms; }
-  int grain(int row) const { return clumps ? grain_of_row[row] : row; }
-  int disc(int row) const { return clumps ? row - first_row[grain_of_row[row]] : 0; }
-  double radius(int row) const { return clumps ? radii[row] : atom->radius[row]; }
+  int grain(int row) const {
+    const int r = row_or_piece(row);
+    return clumps ? grain_of_row[r] : r;
+  }
+  int disc(int row) const {
+    const int r = row_or_piece(row);
+    return clumps ? r - first_row[grain_of_row[r]] : 0;
+  }
+  double radius(int row) const {
+    const int r = row_or_piece(row);
+    return radii.empty() ? atom->radius[r] : radii[r];
+  }
+  // Whether the row is a piece of a wall's line, and its axis.
+  bool is_line(int row) const { return lines && shape_of(row).is_line(); }
+  cdem::WallLine line(int row) const { return shape_of(row).axis(atom->radius[grain(row)]); }
+  const cdem::GrainShape &shape_of_type(int type) const { return *shapes[type]; }
   double reach(int i) const; // from the grain's centre to that of its furthest disc (m)
   const cdem::Disc<double> *discs() const { return clumps ? disc_rows.data() : grains.data(); }
   const cdem::Disc<double> &operator[](int row) const { return discs()[row]; }
   const cdem::Disc<double> &of_grain(int i) const { return grains[i]; }
   const cdem::Body *body(int i) const { return bodies.data() + i; }
   double angle(int i) const { return bodies[i].angle; } // only if there are clumps (rad)
+
+  // Adds rows for feet; each belongs to the piece of a line whose row is given. Earlier ones are gone.
+  void make_feet(std::vector<int> pieces);
+  int foot_row(int n) const { return first_foot + n; }
+  cdem::Disc<double> &foot(int n) { return (clumps ? disc_rows : grains)[first_foot + n]; }
 
   // Fills the rows of own grains begin ... end-1 from the atoms' arrays; the dashpots' velocity is carried forward by
   // the time `forward` (s). The rows of ghosts are received, and then expanded to their discs.
@@ -75,6 +95,9 @@ public:
   double bytes() const;
 
 private:
+  int row_or_piece(int row) const { return row < first_foot ? row : piece_of_foot[row - first_foot]; }
+  const cdem::GrainShape &shape_of(int row) const { return *shapes[atom->type[grain(row)]]; }
+  void map_clumps();
   void fill_grain(int i, double forward);
   int make_sums(int first_grain, int end_grain); // makes room for the sums of their discs; returns how many
   void expand(int begin, int end);
@@ -83,13 +106,16 @@ private:
   FixCDEMGrains *states = nullptr;
   cdem::Kernels kernels{};
   bool clumps = false;                          // whether any type has more than one disc
+  bool lines = false;                           // whether any type is a piece of a line
   std::vector<const cdem::GrainShape *> shapes; // by type
   std::vector<int> first_row, grain_of_row;     // empty unless clumps
+  int first_foot = 0;                           // rows from here on are feet
+  std::vector<int> piece_of_foot;
 
   cdem::Column<cdem::Disc<double>> grains, disc_rows;
   cdem::Column<cdem::Body> bodies;         // of grains
   cdem::Column<cdem::Offset> offsets;      // of discs
-  std::vector<double> radii;               // of discs, empty unless clumps
+  std::vector<double> radii;               // of discs; empty if they are those of the atoms
   cdem::Column<cdem::Forces<double>> sums; // of own discs, from first_summed on
   int first_summed = 0;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // compute ID group cdem/discs [field ...]
 //
-// The discs of the grains and walls of the group, to draw them.
+// The discs of the grains and walls of the group, to draw them. A piece of a line is shown by discs at its two ends.
 //
 // Local array: one row per disc, one column per field, in the order given; by default all of these:
 //

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contacts/line_feet.h"
+
+#include "atom.h"
+
+#include <cmath>
+#include <tuple>
+
+using namespace LAMMPS_NS;
+
+void LineFeet::take_over(cdem::DiscPairs &pairs) {
+  feet.clear();
+  first_of_block.assign(1, 0);
+  if (!rows.has_lines())
+    return;
+  std::vector<int> pair_of_foot, piece_of_foot;
+  for (std::size_t block = 0; block + 1 < pairs.first_segment.size(); block++) {
+    for (int s = pairs.first_segment[block]; s < pairs.first_segment[block + 1]; s++)
+      for (int k = pairs.segments[s].begin; k < pairs.segments[s].end; k++) {
+        const int a = pairs.a(k), b = pairs.b(k);
+        if (!rows.is_line(a) && !rows.is_line(b))
+          continue;
+        const int piece = rows.is_line(a) ? a : b;
+        feet.push_back({a + b - piece, piece, rows.line(piece), NONE, NONE});
+        pair_of_foot.push_back(k);
+        piece_of_foot.push_back(piece);
+      }
+    first_of_block.push_back(int(feet.size()));
+  }
+  find_neighbours();
+  rows.make_feet(piece_of_foot);
+  for (std::size_t n = 0; n < feet.size(); n++) {
+    const int k = pair_of_foot[n], row = rows.foot_row(int(n));
+    const bool piece_is_a = pairs.a(k) == feet[n].piece;
+    pairs.set_discs(k, piece_is_a ? row : feet[n].disc, piece_is_a ? feet[n].disc : row);
+  }
+}
+
+void LineFeet::find_neighbours() {
+  pieces.clear();
+  for (int row = 0; row < rows.rows_of(atom->nlocal + atom->nghost); row++)
+    if (rows.is_line(row))
+      pieces.push_back(row);
+  for (Foot &foot : feet) {
+    const auto &[x, y, ux, uy, half] =
+        std::tuple(rows[foot.piece].x, rows[foot.piece].y, foot.line.ux, foot.line.uy, foot.line.half);
+    foot.before = piece_at(x - half * ux, y - half * uy, foot.piece);
+    foot.behind = piece_at(x + half * ux, y + half * uy, foot.piece);
+  }
+}
+
+// The piece, besides the given one, that has one of its ends at (x, y).
+int LineFeet::piece_at(double x, double y, int besides) const {
+  constexpr double TOLERANCE = 1e-6; // of half the length of a piece: places are rounded
+  for (int row : pieces) {
+    if (row == besides)
+      continue;
+    const auto [ux, uy, half] = rows.line(row);
+    const double dx = x - rows[row].x, dy = y - rows[row].y;
+    const double along = std::fabs(dx * ux + dy * uy), across = std::fabs(dx * uy - dy * ux);
+    if (std::fabs(along - half) < TOLERANCE * half && across < TOLERANCE * half)
+      return row;
+  }
+  return NONE;
+}
+
+void LineFeet::place_all() {
+  for (std::size_t block = 0; block + 1 < first_of_block.size(); block++)
+    place(int(block));
+}
+
+void LineFeet::place(int block) {
+  constexpr double FAR = 1e6; // times the distance of the disc from its foot
+  for (int n = first_of_block[block]; n < first_of_block[block + 1]; n++) {
+    const Foot &f = feet[n];
+    const cdem::Disc<double> &disc = rows[f.disc], &centre = rows[f.piece];
+    const double along = cdem::along_line(disc, centre, f.line);
+    cdem::Disc<double> &foot = rows.foot(n) = cdem::foot_at(along, disc, centre, f.line);
+    if (acts(f, along))
+      continue;
+    foot.x = disc.x + FAR * (foot.x - disc.x);
+    foot.y = disc.y + FAR * (foot.y - disc.y);
+  }
+}
+
+// At an end where another piece begins, the distances decide, which two ranks that have the pair compute alike.
+bool LineFeet::acts(const Foot &f, double along) const {
+  constexpr double CLEAR = 1 - 1e-9; // share of half the length within which rounding can't matter
+  if (std::fabs(along) < CLEAR * f.line.half)
+    return true;
+  const int other = along < 0 ? f.before : f.behind;
+  if (other == NONE)
+    return true;
+  const cdem::Disc<double> &disc = rows[f.disc];
+  const double here = cdem::square_distance(disc, rows[f.piece], f.line);
+  const double there = cdem::square_distance(disc, rows[other], rows.line(other));
+  return here != there ? here < there : atom->tag[rows.grain(f.piece)] < atom->tag[rows.grain(other)];
+}

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The feet of discs on the lines of walls (core/wall_line.h). A pair of a disc and a piece of a line has a row of its
+// own in place of the row of the piece. Before the forces of a step are computed it is placed where the disc's foot is,
+// and then the pair is one of two discs like any other. Where two pieces meet, the one that is closer to the disc acts;
+// the foot on the other is placed far away, on the same normal. As the overlap one step ago follows from the velocities
+// of the step, a disc goes from one piece to the next without any event.
+#pragma once
+
+#include "core/disc_pairs.h"
+#include "grains/grain_rows.h"
+
+#include "pointers.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class LineFeet : protected Pointers {
+public:
+  LineFeet(LAMMPS *lmp, GrainRows &of_grains) : Pointers(lmp), rows(of_grains) {}
+
+  // Gives every pair of a disc and a piece of a line a row for its foot. To be called last when a list of pairs is
+  // made.
+  void take_over(cdem::DiscPairs &);
+  // Places the feet of the pairs of a block.
+  void place(int block);
+  void place_all();
+
+private:
+  // On the piece of row `piece`, of a disc. `before` and `behind`: rows of the pieces that meet it at its two ends, or
+  // NONE.
+  struct Foot {
+    int disc, piece;
+    cdem::WallLine line;
+    int before, behind;
+  };
+  static constexpr int NONE = -1;
+
+  void find_neighbours();
+  int piece_at(double x, double y, int besides) const;
+  bool acts(const Foot &, double along) const;
+
+  GrainRows &rows;
+  std::vector<Foot> feet;
+  std::vector<int> first_of_block; // the feet of block k are first_of_block[k] ... first_of_block[k+1]-1
+  std::vector<int> pieces;         // rows of all pieces, ghosts too
+};
+
+} // namespace LAMMPS_NS
