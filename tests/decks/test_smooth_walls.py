@@ -108,9 +108,10 @@ CORNER = WALL.replace("group wall type 2", "cdem/create 3 row 0.002 0.012 0.022 
 
 
 @pytest.mark.parametrize("ranks", [1, 4])
-def test_around_a_corner(tmp_path: Path, law: str, ranks: int) -> None:
+def test_around_a_corner(tmp_path: Path, ranks: int) -> None:
     """Pulled to the corner of two walls, a disc slides up the first, around the corner, and along the second. Only one of
-    them acts at a time: the undamped motion keeps its energy, and the disc does not turn."""
+    them acts at a time: the undamped motion keeps its energy, and the disc does not turn. (Incremental accumulation loses
+    overlap as the normal turns.)"""
     pull = GRAIN.replace("gravity ${gx} ${gy}", "") + """
 variable r atom sqrt(x^2+(y-0.012)^2)
 variable fx atom -3e4*mass*x/v_r
@@ -119,12 +120,12 @@ variable depth atom 3e4*mass*v_r
 fix pull grains addforce v_fx v_fy 0 energy v_depth
 fix_modify pull energy yes
 """
-    out = run(CORNER + pull + END, tmp_path, law=law, ranks=ranks, **UPRIGHT | {"hn": 0, "spin": 0}, x=-0.004 + 3e-8, y=0.0085,
+    out = run(CORNER + pull + END, tmp_path, law="direct", ranks=ranks, **UPRIGHT | {"hn": 0, "spin": 0}, x=-0.004 + 3e-8, y=0.0085,
               gvx=0, gvy=2, gx=0, gy=0, every=100, steps=8000)  # fmt: skip
     total = out.thermo["PotEng"] + out.thermo["KinEng"]
     x, y = grain(out, "x"), grain(out, "y")
     assert x.max() > 0.0025 and abs(y[x.argmax()] - 0.016) < 1e-6  # it came around
-    assert np.ptp(total) < 1e-5 * np.ptp(out.thermo["KinEng"])
+    assert np.ptp(total) < 1e-6 * np.ptp(out.thermo["KinEng"])
     assert np.all(grain(out, "omegaz") == 0)
 
 
