@@ -52,7 +52,8 @@ void DiscPairList::rebuild(const NeighList *of_grains) {
 
 void DiscPairList::pair_forces(int block) {
   has_history = true;
-  feet.place(block);
+  if (rows.has_lines())
+    feet.place(block);
   const double dt = update->setupflag ? 0 : update->dt;
   cdem::PairColumns columns = pairs.columns(slots.data());
   if (fetches_ahead)
@@ -174,7 +175,8 @@ void DiscPairList::build() {
       // The order of all sums: by the id of the grain, then by the disc.
       pairs, row_starts, [this](int p) { return std::pair(atom->tag[rows.grain(p)], rows.disc(p)); },
       [this](int p) { return !grains->is_free(rows.grain(p)); });
-  feet.take_over(pairs);
+  if (rows.has_lines())
+    feet.take_over(pairs);
   history->expect_at_most(most_pairs());
   constexpr double SECOND_CACHE = 2e6; // of a core, bytes
   fetches_ahead = pairs.bytes() + rows.bytes() + slots.bytes() > SECOND_CACHE;
@@ -394,7 +396,8 @@ void DiscPairList::close_list() {
 void DiscPairList::finish_step_in_books() {
   if (!pairs.has_books())
     return;
-  feet.place_all();
+  if (rows.has_lines())
+    feet.place_all();
   pairs.for_each([this](int k, const cdem::Material &) {
     const auto relative = cdem::relative(rows[pairs.a(k)], rows[pairs.b(k)]);
     const auto contact = cdem::contact_of(relative, cdem::distance_of(relative), pairs.constants(k), update->dt);

@@ -11,8 +11,6 @@ using namespace LAMMPS_NS;
 void LineFeet::take_over(cdem::DiscPairs &pairs) {
   feet.clear();
   first_of_block.assign(1, 0);
-  if (!rows.has_lines())
-    return;
   std::vector<int> pair_of_foot, piece_of_foot;
   for (std::size_t block = 0; block + 1 < pairs.first_segment.size(); block++) {
     for (int s = pairs.first_segment[block]; s < pairs.first_segment[block + 1]; s++)
