@@ -1,1 +1,67 @@
-def publish(values, out): return out
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The tables and the figure of the walls, from what the tests gave."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+from cases import SIGMA, SPEED, STUDIED  # noqa: E402
+
+Values = dict[str, dict[str, float]]
+COLUMNS = {"sides_at_rest": "rest", "sides_at_peak": "peak", "sides_mean": "mean", "peak_lid": "τ/σ lid",
+           "peak_plane": "τ/σ plane", "dilatancy": "dilatancy", "rise_mm": "rise, mm", "trm": "TRM"}  # fmt: skip
+
+
+def publish(values: Values, out: Path) -> Path:
+    """Writes tables.md and walls.svg; returns the former."""
+    groups: dict[tuple[str, str], list[dict[str, float]]] = defaultdict(list)
+    for key, row in values.items():
+        model, walls, _ = key.split("/")
+        groups[model, walls].append(row)
+    models = sorted({model for model, _ in groups})
+    text = (
+        f"Shear at {SIGMA} kPa and {SPEED} mm/s. Mean over the packings, with half of the range; n is their number. The first "
+        "three columns are the vertical load of the upper half's walls over that of the lid: at the first row, at the peak, "
+        "in the mean over the test.\n\n"
+    )
+    text += table("walls", [(m, w, groups[m, w]) for m in models for w in ("discs_1_1", "smooth_1_1") if (m, w) in groups])
+    text += "\nOther discs and distances: kind of sides, size of wall discs over the smallest grain, pitch of side discs.\n\n"
+    studied = [(m, w, rows) for (m, w), rows in sorted(groups.items()) if m in STUDIED]
+    text += table("walls", studied)
+    (out / "tables.md").write_text(text)
+    draw(groups, out / "walls.svg")
+    return out / "tables.md"
+
+
+def table(title: str, rows: list[tuple[str, str, list[dict[str, float]]]]) -> str:
+    lines = [f"| model | {title} | n | " + " | ".join(COLUMNS.values()) + " |", "|---" * (3 + len(COLUMNS)) + "|"]
+    for model, walls, found in rows:
+        cells = []
+        for name in COLUMNS:
+            of_seeds = np.array([row[name] for row in found])
+            spread = f" ± {np.ptp(of_seeds) / 2:.2f}" if len(found) > 1 else ""
+            cells.append(f"{np.mean(of_seeds):.2f}{spread}")
+        lines.append(f"| {model} | {walls.replace('_', ' ')} | {len(found)} | " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def draw(groups: dict[tuple[str, str], list[dict[str, float]]], file: Path) -> None:
+    """τ/σ by lid and by plane against the pitch of the side discs; 0 is the smooth wall."""
+    figure, panels = plt.subplots(1, len(STUDIED), figsize=(3.2 * len(STUDIED), 3.2), sharey=True, layout="constrained")
+    for panel, model in zip(panels, STUDIED, strict=True):
+        for name, colour, mark in (("peak_lid", "black", "o"), ("peak_plane", "tab:blue", "s")):
+            points = [(0.0, "smooth_1_1")] + [(p, f"discs_1_{p:g}") for p in (0.125, 0.25, 0.5, 1)]
+            xy = [(pitch, row[name]) for pitch, walls in points for row in groups.get((model, walls), [])]
+            panel.plot(*zip(*xy, strict=True) if xy else ([], []), mark, color=colour, mfc="none", label=name.split("_")[1])
+        panel.set(title=model, xlabel="pitch of side discs / diameter")
+        panel.title.set_fontsize(8)
+    panels[0].set_ylabel("greatest τ/σ")
+    panels[0].legend(title="σ of")
+    figure.savefig(file)
+    plt.close(figure)
