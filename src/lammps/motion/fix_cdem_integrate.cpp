@@ -61,7 +61,7 @@ FixCDEMIntegrate::FixCDEMIntegrate(LAMMPS *lmp, int narg, char **arg)
   time_integrate = 1;
   scalar_flag = 1;
   peratom_flag = 1;
-  size_peratom_cols = FixCDEMGrains::NOUTPUTS;
+  size_peratom_cols = FixCDEMGrains::NCOLUMNS; // all: atom-style variables take it for the distance of two rows
   peratom_freq = 1;
   restart_global = 1;
   force_reneighbor = 1;
