@@ -58,8 +58,8 @@ template <class T, class Share>
   const T limit = unmarked(T(m.mu) * e_n.pressing), before = es;
   const T trial = unmarked(fused(T(-m.ks * dt) * c.step.t, share.spring, before));
   const auto sticks = magnitude(trial) < limit;
-  const T sliding = with_sign_of(limit, trial), now = select(sticks, trial, sliding);
-  es = select(sticks, marked(trial), sliding + select(c.overlap > T(0), T(TOUCHING), T(0)));
+  const T now = select(sticks, trial, with_sign_of(limit, trial));
+  es = select(sticks, marked(now), now + select(c.overlap > T(0), T(TOUCHING), T(0)));
   return {now, trial, limit, before, T(m.mu) * e_n.before};
 }
 

@@ -56,10 +56,12 @@ template <class Accumulation, bool limit_damping, class... Added> struct Contact
                                                 const Material &m, double dt, T &es, std::array<T, MEMORIES> &memory,
                                                 B &books) {
     Contact<T> c = contact_of(u, distance, pair, dt);
-    if (any((c.overlap > T(0)) != touched(es))) {
-      const auto was = dt > 0 ? touched(es) : settled(c.overlap, touched(es), pair.radius_sum);
-      return force(c, presence(c.overlap, c.before, was, pair.dashpot_scale, m, dt), pair, constants, m, dt, es, memory,
-                   books);
+    const auto was = touched(es);
+    if (any((c.overlap > T(0)) != was)) {
+      if (dt > 0)
+        return force(c, presence(c.overlap, c.before, was, pair.dashpot_scale, m, dt), pair, constants, m, dt, es,
+                     memory, books);
+      settle(c.overlap, es, pair.radius_sum);
     }
     return force(c, steady(c.overlap), pair, constants, m, dt, es, memory, books);
   }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Events within a step: a contact closes or opens, begins or ceases to slide, at some moment between two steps. The
 // corrections here make the forces count for the part of the step in which they acted. With them the time integration
-// is of second order, and of third order for a normal impact.
+// is of second order, and of third order for a normal impact, at whatever moment of a step it begins. It is of first
+// order where a contact stays at the border between sticking and sliding: neither holds for long, as sliding drops the
+// dashpot and sticking has all of it, and the steps alternate.
 #pragma once
 
 #include "kinematics.h"
@@ -23,12 +25,12 @@ template <class T> [[gnu::always_inline]] inline auto touched(T es) { return es 
 // As a run begins (dt = 0), discs may touch of which nothing is known, discs of old contacts may have been moved away,
 // and coordinates may have changed by round-off, across a period. So a pair touches if its overlap is larger than
 // round-off, and does not if its gap is; in between, it does if it did. Discs that have just touched as a run begins so
-// close within its first step. Gives the overlap the sign of the answer.
-template <class T, class Mask> [[gnu::always_inline]] inline Mask settled(T &overlap, Mask touched, T radius_sum) {
+// close within its first step. Gives the overlap the sign of the answer; friction() clears what is to be forgotten.
+template <class T> [[gnu::always_inline]] inline void settle(T &overlap, T &es, T radius_sum) {
   const T round_off = T(1e-12) * radius_sum, least = T(std::numeric_limits<double>::min());
-  const auto positive = overlap > T(0), touches = overlap > round_off || (touched && overlap > -round_off);
+  const auto positive = overlap > T(0), touches = overlap > round_off || (touched(es) && overlap > -round_off);
   overlap = select(touches, select(positive, overlap, least), select(positive, T(0), overlap));
-  return touches;
+  es = select(touches && !touched(es), marked(T(0)), es);
 }
 
 // Weights of a pair's forces, when it was in contact for only a part of the step just made.
