@@ -85,7 +85,7 @@ template <bool limit_damping, class T, class Share, class Books>
   }
   const PartOfStep<T> part = part_of_step(c, share, pair, f, m, dt);
   book(books, c.step, {fn - e_n.now, ft - f.es}, f, loss, part.friction, m, dt);
-  return {fn + impulse, ft + part.force, T(0)};
+  return {with_event(share, fn, impulse), with_event(share, ft, part.force), T(0)};
 }
 
 } // namespace cdem

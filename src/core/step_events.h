@@ -90,6 +90,13 @@ template <class T, class Mask>
           select(changed, select(touch, kx, -kx) * X, lasting.loss)};
 }
 
+// `force`, and `more` if the contact closed or opened in the step.
+template <class T, class Mask>
+[[gnu::always_inline]] inline T with_event(const Presence<T, Mask> &share, T force, T more) {
+  return select(share.changed, force + more, force);
+}
+template <class T> [[gnu::always_inline]] inline T with_event(const Steady<T> &, T force, T) { return force; }
+
 // A mass (kg): with steps of dt, a pair of mass m uses m/(m + this) of its dashpots. Then an oscillation decays per
 // period as in the exact motion.
 //
