@@ -360,8 +360,10 @@ void DiscPairList::recall_history(int k) {
             q = rows.disc(pairs.b(k));
   const bool i_is_own = i < atom->nlocal;
   if (const double *const known = i_is_own ? history->find(i, {atom->tag[j], short(p), short(q)})
-                                           : history->find(j, {atom->tag[i], short(q), short(p)}))
-    pairs.set_remembered(k, known), pairs.set_last_dashpots(k, known + 1 + law.memories());
+                                           : history->find(j, {atom->tag[i], short(q), short(p)})) {
+    pairs.set_remembered(k, known);
+    pairs.set_last_dashpots(k, known + 1 + law.memories());
+  }
 }
 
 cdem::LawTable::Energy DiscPairList::energy(int k, const cdem::Material &m) const {

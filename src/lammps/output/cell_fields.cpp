@@ -8,7 +8,6 @@
 
 #include "atom.h"
 #include "domain.h"
-#include "error.h"
 
 #include <algorithm>
 #include <cmath>
