@@ -50,7 +50,8 @@ struct IncrementalAccumulation {
 template <class T> struct Action { T fn, ft, torque; };
 
 // The tangential spring (N), marked (in its last bit, lanes.h) as long as the contact sticks. Apart, the limit is 0 and
-// clears it. With dt = 0 a sliding contact stays sliding: neither value is marked, so |trial| equals the limit.
+// clears it; in contact, TOUCHING stands for a limit of 0 in what is remembered. With dt = 0 a sliding contact stays
+// sliding: neither value is marked, so |trial| equals the limit.
 template <class T, class Share>
 [[gnu::always_inline]] inline Friction<T> friction(const Contact<T> &c, const Share &share, const NormalSpring<T> &e_n,
                                                    const Material &m, double dt, T &es) {
@@ -58,7 +59,7 @@ template <class T, class Share>
   const T trial = unmarked(fused(T(-m.ks * dt) * c.step.t, share.spring, before));
   const auto sticks = magnitude(trial) < limit;
   const T now = select(sticks, trial, with_sign_of(limit, trial));
-  es = select(sticks, marked(now), now);
+  es = select(sticks, marked(now), now + select(c.overlap > T(0), T(TOUCHING), T(0)));
   return {now, trial, limit, before, T(m.mu) * e_n.before};
 }
 
@@ -84,7 +85,7 @@ template <bool limit_damping, class T, class Share, class Books>
   }
   const PartOfStep<T> part = part_of_step(c, share, pair, f, m, dt);
   book(books, c.step, {fn - e_n.now, ft - f.es}, f, loss, part.friction, m, dt);
-  return {fn + impulse, ft + part.force, T(0)};
+  return {with_event(share, fn, impulse), with_event(share, ft, part.force), T(0)};
 }
 
 } // namespace cdem

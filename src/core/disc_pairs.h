@@ -23,7 +23,7 @@ struct alignas(64) PairGroup {
   // doubles: the processor multiplies an index by 8 in the address itself.
   int a[SIZE], b[SIZE], slot_a[SIZE], slot_b[SIZE];
   double radius_sum[SIZE], half_difference[SIZE], dashpot_scale[SIZE];
-  double es[SIZE]; // the tangential spring (N)
+  double es[SIZE]; // the tangential spring (N); 0 only apart, see step_events.h
 };
 
 // What the loop over the pairs of a block prefetches, a part with every group: the rows that later blocks will read
@@ -99,6 +99,7 @@ public:
       memories[m][k] = all[1 + m];
   }
   double es(int k) const { return group(k).es[k % SIZE]; }
+  void set_es(int k, double spring) { group(k).es[k % SIZE] = spring; }
   // Constants of the law.
   std::array<double, MOST_NUMBERS> law_constants(int k) const {
     std::array<double, MOST_NUMBERS> all{};

@@ -19,6 +19,7 @@
 #include "cell_grid.h"
 #include "exact_sum.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -116,8 +117,10 @@ public:
     const std::int64_t *word = all.data();
     for (Cell &cell : sums)
       for (ExactSum &s : cell) {
-        s = ExactSum({word[0], word[1], word[2]});
-        word += 3;
+        ExactSum::Words of_sum;
+        std::copy_n(word, of_sum.size(), of_sum.begin());
+        s = ExactSum(of_sum);
+        word += of_sum.size();
       }
   }
 

@@ -137,8 +137,8 @@ template <class Abi> inline Lanes<Abi> fused_minus(Lanes<Abi> a, Lanes<Abi> b, L
 template <class Abi> inline bool any(LaneMask<Abi> condition) { return stdx::any_of(condition); }
 
 template <class Abi> [[gnu::always_inline]] inline LaneMask<Abi> is_marked(Lanes<Abi> x) {
-  constexpr int EXPONENT = 52; // shifted there, the bit makes a number that is not denormal
-  return of_bits<Abi>((bits(x) & 1) << EXPONENT) > Lanes<Abi>(0);
+  constexpr int EXPONENT = 62; // shifted there, the bit makes 2; the one before it becomes the sign
+  return of_bits<Abi>(bits(x) << EXPONENT) != Lanes<Abi>(0);
 }
 template <class Abi> [[gnu::always_inline]] inline Lanes<Abi> marked(Lanes<Abi> x) { return of_bits<Abi>(bits(x) | 1); }
 template <class Abi> [[gnu::always_inline]] inline Lanes<Abi> unmarked(Lanes<Abi> x) {

@@ -55,10 +55,14 @@ template <class Accumulation, bool limit_damping, class... Added> struct Contact
                                                 const PairConstants<T> &pair, const std::array<T, CONSTANTS> &constants,
                                                 const Material &m, double dt, T &es, std::array<T, MEMORIES> &memory,
                                                 B &books) {
-    const Contact<T> c = contact_of(u, distance, pair, dt);
-    if (any((c.overlap > T(0)) != (c.before > T(0))))
-      return force(c, presence(c.overlap, c.before, pair.dashpot_scale, m, dt), pair, constants, m, dt, es, memory,
-                   books);
+    Contact<T> c = contact_of(u, distance, pair, dt);
+    const auto was = touched(es);
+    if (any((c.overlap > T(0)) != was)) {
+      if (dt > 0)
+        return force(c, presence(c.overlap, c.before, was, pair.dashpot_scale, m, dt), pair, constants, m, dt, es,
+                     memory, books);
+      settle(c.overlap, es, pair.radius_sum);
+    }
     return force(c, steady(c.overlap), pair, constants, m, dt, es, memory, books);
   }
 

@@ -147,10 +147,12 @@ def test_residual_of_a_box_in_motion(tmp_path: Path, law: str, ranks: int, style
 
 @pytest.mark.parametrize("added", ["", ADDED])
 def test_books_go_on_after_a_restart(tmp_path: Path, law: str, ranks: int, added: str) -> None:
-    options = {"ranks": ranks, "law": law, "added": added, "dt": 2e-7, "steps": 1500, "until": 700}
-    whole = mini_books(tmp_path, plan="write", **options)
+    """As if there had been none, and no set-up, of which there are three. What is summed is added up in another order, to a
+    few last bits."""
+    options = {"ranks": ranks, "law": law, "added": added, "dt": 2e-7, "steps": 1300, "until": 700}
+    whole = mini_books(tmp_path, plan="pass", **options)
     again = mini_books(tmp_path, plan="read", **options)
-    assert again == pytest.approx(whole, rel=1e-9, abs=1e-9 * whole["walls"])
+    assert again == pytest.approx(whole, rel=0, abs=1e-14 * whole["walls"])
 
 
 def test_an_audit_changes_nothing(tmp_path: Path, law: str) -> None:

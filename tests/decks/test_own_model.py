@@ -15,7 +15,7 @@ INPUT = ROOT / "input"
 sys.path.insert(0, str(ROOT / "tools"))
 
 from shearbox_tools.dumps import Dump  # noqa: E402
-from shearbox_tools.files import DISCS_DUMP, GRAINS_DUMP, PACKED_TABLE, SHEAR_DONE, SHEAR_TABLE  # noqa: E402
+from shearbox_tools.files import DISCS_DUMP, GRAINS_DUMP, PACKED_TABLE, SHEAR_TABLE  # noqa: E402
 from shearbox_tools.models import read_model  # noqa: E402
 from shearbox_tools.readers import read_row, read_shear  # noqa: E402
 from shearbox_tools.specimen import Film, count_lost  # noqa: E402
@@ -53,7 +53,6 @@ def test_the_tables(folder: Path) -> None:
     packed, shear = read_row(folder / PACKED_TABLE), read_shear(folder / SHEAR_TABLE)
     assert packed["grains"] == GRAINS
     assert 0.6 < packed["solid_fraction"] < 0.95
-    assert (folder / SHEAR_DONE).exists()
     assert len(shear["step"]) == 20
     assert shear["displacement_mm"] == pytest.approx(np.sort(shear["displacement_mm"]))
     assert 0.9 < shear["displacement_mm"][-1] < 1

@@ -3,7 +3,7 @@
 """Stands in for lmp_cdem: takes its command line and writes what the decks write, with known curves.
 
 FAKE_SECONDS: how long a shear phase takes; FAKE_FAIL: folder name of a stress (or 'packed') that fails half way;
-FAKE_DIARY: file that gets a line when an engine starts and ends.
+FAKE_DIARY: file that gets a line when an engine starts, and from which restart file, and ends.
 """
 
 import os
@@ -13,8 +13,14 @@ from pathlib import Path
 
 import synthetic
 
-ROWS = 100
-ROWS_PER_RESTART = 5
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
+from shearbox_tools.files import DUMPS  # noqa: E402
+from shearbox_tools.phases import rows_of_shear, steps_between_frames  # noqa: E402
+from shearbox_tools.restarts import step_of  # noqa: E402
+
+ROWS = rows_of_shear()
+ROWS_PER_FRAME = steps_between_frames(1)
+ROWS_PER_RESTART = ROWS // 50
 
 
 def main() -> int:
@@ -23,7 +29,7 @@ def main() -> int:
     phase = Path(words[words.index("-in") + 1]).stem
     log = Path(words[words.index("-log") + 1])
     log.write_text("LAMMPS (29 Sep 2021)\nShearbox 0.1.0 (fake)\n", encoding="utf-8")
-    diary("start", phase)
+    diary("start", phase, variables.get("from", ""))
     {"pack": pack, "consolidate": consolidate, "shear": shear}[phase](variables, log)
     diary("end", phase)
     with log.open("a", encoding="utf-8") as stream:
@@ -40,7 +46,7 @@ def pack(_: dict[str, str], log: Path) -> None:
 
 
 def consolidate(variables: dict[str, str], _: Path) -> None:
-    assert Path(variables["packed"]).read_text(encoding="utf-8") == "restart", "the packing is not there"
+    assert Path(variables["packed"]).exists(), "the packing is not there"
     bed("consolidated", sigma_kPa=float(variables["sigma"]))
 
 
@@ -48,22 +54,31 @@ def shear(variables: dict[str, str], log: Path) -> None:
     travel, sigma = float(variables["travel"]), float(variables["sigma"])
     columns = synthetic.curves(sigma, travel, ROWS)
     table = Path("shear.dat")
-    restarts = sorted(Path().glob("shear.restart.?"), key=lambda p: p.stat().st_mtime)
-    begin = int(restarts[0].read_text(encoding="utf-8")) if restarts else 0
-    if not begin:
+    begin = 0
+    if "from" in variables:
+        step = step_of(Path(f"shear.restart.{variables['from']}"))
+        assert step is not None
+        begin = step // synthetic.STEPS_PER_ROW
+    else:
         synthetic.write_shear(table, columns, slice(0, 0))
-        synthetic.write_frames(Path(), [0, ROWS * synthetic.STEPS_PER_ROW], travel)
+        synthetic.write_frames(Path(), [0], travel)
+    frames = {name: Path(name).read_text(encoding="utf-8") for name in DUMPS}
+    first = {name: text[: text.find("ITEM: TIMESTEP", 1) if begin else None] for name, text in frames.items()}
     for row in range(begin, ROWS):
         if row == ROWS // 2:
             fail_if_asked(log)
+        step = (row + 1) * synthetic.STEPS_PER_ROW
         synthetic.write_shear(table, columns, slice(row, row + 1), "a")
+        if (row + 1) % ROWS_PER_FRAME == 0:
+            for name, text in first.items():
+                with Path(name).open("a", encoding="utf-8") as stream:
+                    stream.write(text.replace("TIMESTEP\n0\n", f"TIMESTEP\n{step}\n"))
         if (row + 1) % ROWS_PER_RESTART == 0:
-            name = "ab"[(row + 1) // ROWS_PER_RESTART % 2]
-            Path(f"shear.restart.{name}").write_text(str(row + 1), encoding="utf-8")
+            synthetic.write_restart(Path("shear.restart." + "ab"[(row + 1) // ROWS_PER_RESTART % 2]), step)
         time.sleep(float(os.environ.get("FAKE_SECONDS", "0")) / ROWS)
-    for path in restarts:
-        path.unlink(missing_ok=True)
-    Path("shear.done").write_text("done\n", encoding="utf-8")
+    synthetic.write_restart(Path("sheared.restart"), ROWS * synthetic.STEPS_PER_ROW)
+    for path in Path().glob("shear.restart.?"):
+        path.unlink()
 
 
 def bed(name: str, **more: float) -> None:
@@ -71,7 +86,7 @@ def bed(name: str, **more: float) -> None:
         Path(f"{name}.csv"), grains=synthetic.GRAINS, height_m=0.0987, solid_fraction=0.835,
         solid_fraction_bottom=0.834, solid_fraction_top=0.836, unbalanced=8e-5, kinetic_J=3e-12, steps=123000, **more,
     )  # fmt: skip
-    Path(f"{name}.restart").write_text("restart", encoding="utf-8")
+    synthetic.write_restart(Path(f"{name}.restart"), 123000)
 
 
 def fail_if_asked(log: Path) -> None:
@@ -81,10 +96,10 @@ def fail_if_asked(log: Path) -> None:
         sys.exit(1)
 
 
-def diary(event: str, phase: str) -> None:
+def diary(event: str, phase: str, restart: str = "") -> None:
     if "FAKE_DIARY" in os.environ:
         with open(os.environ["FAKE_DIARY"], "a", encoding="utf-8") as stream:
-            stream.write(f"{event} {phase} {Path.cwd().name}\n")
+            stream.write(f"{event} {phase} {Path.cwd().name} {restart}".rstrip() + "\n")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Curves and files as the decks write them, with known answers and without an engine."""
 
+import struct
 from pathlib import Path
 
 import numpy as np
@@ -57,6 +58,13 @@ def write_shear(path: Path, columns: dict[str, np.ndarray], rows: slice = slice(
             stream.write("# " + " ".join(columns) + "\n")
         for row in table:
             stream.write(" ".join(f"{value:.10g}" for value in row) + "\n")
+
+
+def write_restart(path: Path, step: int) -> None:
+    """A restart file as LAMMPS begins and ends it: mark, byte order, revision, version, units, step; mark."""
+    mark = b"LammpS RestartT\0"
+    texts = struct.pack("=ii5sii3s", 0, 5, b"2021\0", 4, 3, b"si\0")
+    path.write_bytes(mark + struct.pack("=ii", 1, 2) + texts + struct.pack("=iq", 5, step) + b"grains" + mark)
 
 
 def write_row(path: Path, **values: float) -> None:

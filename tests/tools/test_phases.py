@@ -4,13 +4,16 @@
 from pathlib import Path
 
 import pytest
+import synthetic
 
 from shearbox_tools.errors import InputError
 from shearbox_tools.models import INPUT, all_models, find_model, read_model
 from shearbox_tools.phases import disk_need, packing, shearing
+from shearbox_tools.readers import BED
 from shearbox_tools.request import Request, check
 
 HEADER = "# step displacement_mm tau_kPa\n"
+TABLE = ",".join(BED) + "\n" + ",".join("1" * len(BED)) + "\n"
 GOODBYE = "...\nTotal wall time: 0:00:01\n"
 
 
@@ -19,22 +22,25 @@ def request(name: str = "TypeA_10x5_4-8_1-circle_350") -> Request:
 
 
 @pytest.mark.parametrize(
-    "table, log, done",
+    "table, log, restart, done",
     [
-        ("a,b\n1,2\n", GOODBYE, True),
-        ("a,b\n1,2\n", "...\n", False),
-        ("a,b\n1,", GOODBYE, False),
-        ("", GOODBYE, False),
-        (None, GOODBYE, False),
-        ("a,b\n1,2\n", None, False),
+        (TABLE, GOODBYE, True, True),
+        (TABLE, "...\n", True, False),
+        (TABLE[:-2], GOODBYE, True, False),
+        ("", GOODBYE, True, False),
+        (None, GOODBYE, True, False),
+        (TABLE, None, True, False),
+        (TABLE, GOODBYE, False, False),
     ],
 )
-def test_done_is_a_whole_table_and_an_engine_that_said_goodbye(tmp_path, table, log, done):
+def test_done_is_a_whole_table_and_an_engine_that_said_goodbye(tmp_path, table, log, restart, done):
     phase = packing(tmp_path, request())
     phase.folder.mkdir()
     for path, text in ((phase.folder / "packed.csv", table), (phase.log, log)):
         if text is not None:
             path.write_text(text, encoding="utf-8")
+    if restart:
+        synthetic.write_restart(phase.folder / "packed.restart", 7)
     assert phase.done is done
 
 
@@ -112,8 +118,11 @@ def test_a_half_travels_as_far_as_its_flanges_are_long(tmp_path, monkeypatch):
 def test_disk_need_grows_with_what_is_left(tmp_path):
     small, large = disk_need(request(), tmp_path), disk_need(request("TypeD_30x10_2-4_1-circle_9000"), tmp_path)
     assert 20e6 < small < 100e6 < large < 2e9
-    for phase, product in zip(shearing(tmp_path, request(), 100), ("consolidated.csv", "shear.done")):
-        phase.folder.mkdir(exist_ok=True)
-        (phase.folder / product).write_text("done\n", encoding="utf-8")
+    place = tmp_path / "100"
+    place.mkdir()
+    (place / "consolidated.csv").write_text(TABLE, encoding="utf-8")
+    synthetic.write_shear(place / "shear.dat", synthetic.curves(100, 8))
+    for phase in shearing(tmp_path, request(), 100):
         phase.log.write_text(GOODBYE, encoding="utf-8")
+        synthetic.write_restart(place / phase.restart, 7)
     assert disk_need(request(), tmp_path) == pytest.approx(small / 2, abs=1)

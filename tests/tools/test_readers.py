@@ -9,8 +9,8 @@ import synthetic
 
 from shearbox_tools.dumps import CONTACTS, DISCS, GRAINS, Dump
 from shearbox_tools.errors import ShearboxError
-from shearbox_tools.readers import last_value, read_row, read_shear
-from shearbox_tools.repair import repair
+from shearbox_tools.logs import read_log
+from shearbox_tools.readers import BED, last_value, read_row, read_shear
 
 
 @pytest.fixture(name="shear")
@@ -126,8 +126,9 @@ def test_no_file(tmp_path):
 
 def test_a_row_of_csv(tmp_path):
     path = tmp_path / "packed.csv"
-    path.write_text("grains, height_m\n350, 0.0987\n", encoding="utf-8")
-    assert read_row(path) == {"grains": 350, "height_m": 0.0987}
+    row = {name: float(k) for k, name in enumerate(BED)} | {"sigma_kPa": 100.0}
+    path.write_text(", ".join(row) + "\n" + ", ".join(map(str, row.values())) + "\n", encoding="utf-8")
+    assert read_row(path) == row
 
 
 @pytest.mark.parametrize(
@@ -137,6 +138,7 @@ def test_a_row_of_csv(tmp_path):
         ("a,b\n", "1 whole lines"),
         ("a,b\n1\n", "line 2: 2 values"),
         ("a,b\n1,x\n", "line 2: not a"),
+        (",".join(BED[1:]) + "\n" + ",".join("1" * (len(BED) - 1)) + "\n", "no column grains"),
     ],
 )
 def test_a_damaged_csv_is_named(tmp_path, text, message):
@@ -218,19 +220,13 @@ def test_a_frame_without_rows(frames):
     assert Dump(path, CONTACTS).frame(0)["fn"].shape == (0,)
 
 
-def test_a_last_frame_that_is_cut_off_is_left_out_and_repaired(frames):
+def test_a_last_frame_that_is_cut_off_is_left_out(frames):
     path = frames / "grains.dump"
     whole = path.read_bytes()
     third = whole.rfind(b"ITEM: TIMESTEP")
-    for end in (third + 5, third + 20, third + 60, third + 200, len(whole) - 1, len(whole) - 100):
+    for end in (third + 15, third + 20, third + 60, third + 200, len(whole) - 1, len(whole) - 100):
         path.write_bytes(whole[:end])
-        if end > third + 14:  # before that the fragment is not yet known as a frame, and goes with the repair
-            assert Dump(path, GRAINS).steps == [0, 5000]
-        repair(frames)
-        assert path.read_bytes() == whole[:third]
-    path.write_bytes(whole)
-    repair(frames)
-    assert path.read_bytes() == whole
+        assert Dump(path, GRAINS).steps == [0, 5000]
 
 
 def test_the_last_of_repeated_frames_counts(frames):
@@ -277,11 +273,19 @@ def test_an_empty_dump_is_named(frames):
         Dump(frames / "grains.dump", GRAINS)
 
 
-def test_a_lone_restart_may_be_torn(tmp_path):
-    (tmp_path / "shear.restart.a").write_text("half", encoding="utf-8")
-    repair(tmp_path)
-    assert not (tmp_path / "shear.restart.a").exists()
-    for name in "ab":
-        (tmp_path / f"shear.restart.{name}").write_text("whole", encoding="utf-8")
-    repair(tmp_path)
-    assert (tmp_path / "shear.restart.a").exists() and (tmp_path / "shear.restart.b").exists()
+@pytest.mark.parametrize("first, count", [(0, 1), (7, 1), (7, 5)])
+def test_rows_that_are_cut_out_are_missed(shear, first, count):
+    lines = shear.read_text(encoding="utf-8").splitlines(keepends=True)
+    del lines[1 + first : 1 + first + count]
+    shear.write_text("".join(lines), encoding="utf-8")
+    gap = f"the rows between the steps {5000 * first} and {5000 * (first + count + 1)} are missing"
+    with pytest.raises(ShearboxError, match=gap):
+        read_shear(shear)
+
+
+@pytest.mark.parametrize("line", ["Loop time of 1.2.3 on 1 procs for 10 steps", "Loop time of nan on 1 procs for x steps",
+                                  "Loop time of 1e9999 on 1 procs for 10 steps", "Pair | 1 | .. | 3 |"])  # fmt: skip
+def test_a_damaged_log_counts_for_nothing(tmp_path, line):
+    path = tmp_path / "shear.log"
+    path.write_text(f"{line}\nLoop time of 2 on 1 procs for 10 steps\n", encoding="utf-8")
+    assert (read_log(path).seconds, read_log(path).steps) == (2, 10)

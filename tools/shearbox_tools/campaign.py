@@ -1,27 +1,28 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Working through the phases of a run, several at a time, so that it can be stopped and taken up at any moment."""
 
-import fcntl
 import json
-import os
+import math
 import signal
 import subprocess
 import time
 from collections import deque
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from .display import Display, duration
-from .engine import LEAST_FREE_BYTES, Engine, explain_failure, free_bytes, stop
+from .engine import LEAST_FREE_BYTES, Engine, Failure, explain_failure, free_bytes, stop
 from .errors import ShearboxError
-from .files import LOCK, TIMINGS, write_json
-from .phases import SHEAR, Phase, packing, shearing
-from .repair import repair
+from .files import TIMINGS, sync, write_json
+from .phases import SHEAR, Phase, all_phases, left_to_do
+from .repair import make_ready
 from .request import Request
+from .restarts import step_of
+from .seals import Seal, look_at, seal
 
-POLL_SECONDS = 0.2
+POLL_SECONDS = 0.1
 
 
 @dataclass
@@ -31,6 +32,7 @@ class Job:
     phases: deque[Phase]
     process: subprocess.Popen[bytes]
     begun: float = field(default_factory=time.monotonic)
+    seen: dict[str, int] = field(default_factory=dict)  # times (ns) of the checkpoints that are sealed
 
     @property
     def phase(self) -> Phase:
@@ -48,24 +50,24 @@ class Campaign:
         self._display = display
         self._lock = lock
 
-    def run(self, jobs: int) -> list[str]:
+    def run(self, jobs: int) -> list[Failure]:
         """Pack, then consolidate and shear each stress, `jobs` at a time; what failed is told and returned."""
-        failures = self._work([[packing(self._folder, self._request)]], 1)
-        if not failures:
-            chains = [shearing(self._folder, self._request, sigma) for sigma in self._request.stresses]
-            failures = self._work(chains, jobs)
-        return failures
+        for phase in all_phases(self._folder, self._request):
+            if look_at(phase.folder / phase.product) is Seal.UNKNOWN and phase.ended:
+                _seal(phase)  # the program that started its engine was killed
+        pack, chains = left_to_do(self._folder, self._request)
+        return self._work([pack] if pack else [], 1) or self._work(chains, jobs)
 
-    def _work(self, chains: Iterable[list[Phase]], jobs: int) -> list[str]:
+    def _work(self, chains: Iterable[list[Phase]], jobs: int) -> list[Failure]:
         """Run the chains; when one fails the others go on."""
-        waiting = deque(left for chain in chains if (left := deque(p for p in chain if not p.done)))
+        waiting = deque(deque(chain) for chain in chains)
         running: list[Job] = []
-        failures: list[str] = []
+        failures: list[Failure] = []
         try:
             while waiting or running:
                 while waiting and len(running) < jobs:
                     phases = waiting.popleft()
-                    running.append(Job(phases, self._start(phases[0])))
+                    running.append(Job(phases, self._start(phases)))
                 time.sleep(POLL_SECONDS)
                 self._guard_disk()
                 for job in list(running):
@@ -75,23 +77,28 @@ class Campaign:
             self._stop(running)
         return failures
 
-    def _start(self, phase: Phase) -> subprocess.Popen[bytes]:
-        repair(phase.folder)
+    def _start(self, phases: deque[Phase]) -> subprocess.Popen[bytes]:
+        phase, notes = make_ready(phases[0])
+        phases[0] = phase
+        for note in notes:
+            self._display.say(f"{phase.label}: {note}")
         reached = phase.displacement()
         process = self._engine.start(phase, self._lock)
         sheared = phase.name == SHEAR
         self._display.started(phase.label, self._request.travel if sheared else None, reached)
         return process
 
-    def _attend(self, job: Job, failures: list[str]) -> bool:
+    def _attend(self, job: Job, failures: list[Failure]) -> bool:
         """Look after a job and go on to its next phase; whether there is more to do for it."""
         phase, status = job.phase, job.process.poll()
         if phase.name == SHEAR:
             self._display.moved(phase.label, phase.displacement())
         if status is None:
+            _seal_checkpoints(job)
             return True
         seconds = self._record_time(job)
-        if status != 0 or not phase.done:
+        _seal(phase)
+        if status != 0 or not phase.ended:
             failures.append(explain_failure(phase, status))
             self._display.ended(phase.label, f"failed after {duration(seconds)}")
             return False
@@ -99,7 +106,7 @@ class Campaign:
         self._display.ended(phase.label, f"done in {duration(seconds)}")
         job.phases.popleft()
         if job.phases:
-            job.process, job.begun = self._start(job.phase), time.monotonic()
+            job.process, job.begun = self._start(job.phases), time.monotonic()
         return bool(job.phases)
 
     def _stop(self, running: list[Job]) -> None:
@@ -112,6 +119,7 @@ class Campaign:
             stop([job.process for job in alive])
             for job in alive:
                 self._record_time(job)
+                _seal(job.phase)
         finally:
             signal.signal(signal.SIGINT, before)
 
@@ -136,24 +144,29 @@ def read_timings(folder: Path) -> dict[str, float]:
     """Seconds per phase, summed over all attempts; a damaged record costs the timings only."""
     try:
         timings = json.loads((folder / TIMINGS).read_text(encoding="utf-8"))
-        return {str(label): float(seconds) for label, seconds in timings.items()}
-    except (OSError, ValueError, AttributeError, TypeError):
+        known = {str(label): float(seconds) for label, seconds in timings.items()}
+        return known if all(math.isfinite(s) and s >= 0 for s in known.values()) else {}
+    except (OSError, ValueError, AttributeError, TypeError, OverflowError):
         return {}
 
 
-@contextmanager
-def locked(folder: Path) -> Iterator[int]:
-    """Hold the folder's lock, which engines that outlive this program keep too; yields its descriptor."""
-    descriptor = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT, 0o644)
-    try:
-        _take(descriptor, folder)
-        yield descriptor
-    finally:
-        os.close(descriptor)
+def _seal(phase: Phase) -> None:
+    with suppress(ShearboxError):  # a full disk has more important things to say
+        phase.seal()
 
 
-def _take(descriptor: int, folder: Path) -> None:
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError as error:
-        raise ShearboxError(f"{folder} is in use by another run, or by an engine that one left behind") from error
+def _seal_checkpoints(job: Job) -> None:
+    """Seal restart files that were written since the last look.
+
+    Table and frames up to them are on the disk before their seals are: the engine writes them first.
+    """
+    folder = job.phase.folder
+    for name in job.phase.checkpoints:
+        with suppress(OSError, ShearboxError):  # it may be gone by now
+            written = (folder / name).stat().st_mtime_ns
+            if written == job.seen.get(name) or step_of(folder / name) is None:
+                continue
+            for behind in (job.phase.product, *job.phase.frames):
+                sync(folder / behind)
+            seal(folder, [name])
+            job.seen[name] = written

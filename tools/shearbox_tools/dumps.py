@@ -2,6 +2,7 @@
 """Reading single frames out of LAMMPS dumps that may be much larger than a frame."""
 
 import mmap
+import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,6 +12,7 @@ import numpy as np
 from .errors import ShearboxError
 from .files import COLUMNS
 from .readers import Columns, parse_numbers, require, short
+from .seals import refuse_altered
 
 GRAINS = ("id", "x", "y", "radius", "angle", "wall", "lower", "lid")  # columns that are needed
 DISCS = ("id", "disc", "x", "y", "radius")
@@ -43,11 +45,15 @@ class Dump:
     whole is what an engine that was stopped leaves behind, and is left out; anywhere else it is an error.
     """
 
-    def __init__(self, path: Path, columns: tuple[str, ...]) -> None:
+    def __init__(self, path: Path, columns: tuple[str, ...] = ()) -> None:
         self.path = path
         self.columns = columns
         self._names_file = path.with_suffix(COLUMNS)
-        self._given = self._names_file.read_text(encoding="utf-8").split() if self._names_file.exists() else []
+        for file in (path, self._names_file):
+            refuse_altered(file)
+        self._given = (
+            self._names_file.read_text(encoding="utf-8", errors="replace").split() if self._names_file.exists() else []
+        )
         self._blocks = self._read_index()
 
     @property
@@ -60,6 +66,10 @@ class Dump:
         if not self._blocks:
             raise ShearboxError(f"{self.path}: there is no whole frame in it")
         return min(self._blocks, key=lambda s: abs(s - step))
+
+    def cut(self, step: int) -> None:
+        """Cut the file off after the frame of that step."""
+        os.truncate(self.path, self._blocks[step][1])
 
     def frame(self, step: int) -> Columns:
         """Columns of the frame of that step, each (rows,), in the units of the dump."""
@@ -154,21 +164,6 @@ class Dump:
         """Number of the line that begins at that byte."""
         with self.path.open("rb") as stream:
             return stream.read(offset).count(b"\n") + 1
-
-
-def last_whole_byte(path: Path) -> int:
-    """Length of the file without what follows its last whole frame."""
-    data = path.read_bytes()
-    starts = _frame_starts(data)
-    if not starts:
-        return 0
-    lines = data[starts[-1] :].splitlines(keepends=True)
-    last_of_head = next((i for i, line in enumerate(lines) if line.startswith(_LAST_OF_HEAD)), None)
-    if last_of_head is None:
-        return starts[-1]
-    frame = lines[: last_of_head + 1 + int(lines[3])]
-    whole = len(frame) == last_of_head + 1 + int(lines[3]) and frame[-1].endswith(b"\n")
-    return starts[-1] + sum(map(len, frame)) if whole else starts[-1]
 
 
 def _frame_starts(data: bytes | mmap.mmap) -> list[int]:

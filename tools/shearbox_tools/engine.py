@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Starting, stopping and questioning the engine, lmp_cdem."""
 
+import ctypes
 import os
 import re
 import shutil
@@ -17,6 +18,11 @@ from .phases import Phase
 PROGRAM = ROOT / "build" / "lmp_cdem" if (ROOT / "CMakeLists.txt").exists() else ROOT.parents[1] / "bin" / "lmp_cdem"
 SECONDS_TO_STOP = 10.0
 LEAST_FREE_BYTES = 20_000_000
+# mpirun tells a signal of a rank as a status of 128 and more
+ENDED_FROM_OUTSIDE = {sign for number in (signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGXCPU)
+                      for sign in (int(number), -128 - number)}  # fmt: skip
+_LIBC = ctypes.CDLL(None)
+_PR_SET_PDEATHSIG = 1  # of <sys/prctl.h>
 
 
 @dataclass(frozen=True)
@@ -56,6 +62,7 @@ class Engine:
                 stderr=subprocess.STDOUT,
                 start_new_session=True,
                 pass_fds=(lock,),
+                preexec_fn=_end_with_parent,  # also if it is killed
                 env={**os.environ, **_environment()},
             )
 
@@ -73,23 +80,38 @@ def stop(processes: list[subprocess.Popen[bytes]]) -> None:
                 continue
 
 
-def explain_failure(phase: Phase, status: int) -> str:
-    """Why a phase has failed: the last ERROR line of its log, or what else is known, and where to read on."""
+@dataclass(frozen=True)
+class Failure:
+    """Why a phase has failed, and whether the cause may be gone when the same is tried again."""
+
+    message: str
+    may_pass: bool
+
+
+def explain_failure(phase: Phase, status: int) -> Failure:
+    """The last ERROR line of its log, or what else is known, and where to read on."""
     reason = _last_error(phase.log) or _last_error(phase.screen)
+    may_pass = not reason and -status in ENDED_FROM_OUTSIDE
     if not reason:
         reason = f"the engine was ended by signal {-status}" if status < 0 else f"the engine ended with status {status}"
         if status == 0:
-            reason = f"the engine ended without writing {phase.product}"
+            reason = f"the engine ended without writing {phase.product} and {phase.restart}"
     if free_bytes(phase.folder) < LEAST_FREE_BYTES:
         reason += f" (the disk is full: {free_bytes(phase.folder) / 1e6:.0f} MB free)"
+        may_pass = True
     where = phase.log if phase.log.exists() else phase.screen
-    return f"{phase.label} failed: {reason}\n  log: {where}"
+    return Failure(f"{phase.label} failed: {reason}\n  log: {where}", may_pass)
 
 
 def free_bytes(folder: Path) -> int:
     """Free space on the disk of a folder that may not exist yet."""
     existing = next(p for p in (folder.resolve(), *folder.resolve().parents) if p.exists())
     return shutil.disk_usage(existing).free
+
+
+def _end_with_parent() -> None:
+    """Called in the child before it becomes the engine. mpirun ends its ranks when it gets this signal."""
+    _LIBC.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
 
 
 def _last_error(path: Path) -> str | None:

@@ -10,15 +10,14 @@ Ware, Biometrics 38 (1982) 963),
 The scatter e of a peak grows with sigma, as peaks' errors and the influence of phi_j do: lines are ordinary least
 squares of tau / sigma = tan(phi) + c (1 / sigma), that is, with weights 1 / sigma^2 (Aitken, Proc. R. Soc. Edinburgh 55
 (1935) 42). Leading axes of arrays are ensembles of their own, and the estimates have their shape. All intervals are of
-COVERAGE.
+strength.COVERAGE.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
 
-from .strength import COVERAGE
+from .strength import student_quantile
 
 
 @dataclass(frozen=True)
@@ -44,7 +43,7 @@ def mean_of(values: np.ndarray) -> Estimate:
     count = values.shape[-1]
     _need(count, "specimens")
     deviation = values.std(axis=-1, ddof=1)
-    half = stats.t.ppf((1 + COVERAGE) / 2, count - 1) * deviation / np.sqrt(count)
+    half = student_quantile(count - 1) * deviation / np.sqrt(count)
     mean = values.mean(axis=-1)
     return Estimate(mean, mean - half, mean + half, deviation)
 
@@ -83,7 +82,7 @@ def strength_of_independent(sigma: np.ndarray, tau: np.ndarray) -> EnsembleStren
     lines = ratio @ np.linalg.pinv(design).T
     variance = np.sum((ratio - lines @ design.T) ** 2, axis=-1) / freedom
     errors = np.sqrt(variance[..., None] * np.diag(np.linalg.inv(design.T @ design)))
-    half = stats.t.ppf((1 + COVERAGE) / 2, freedom) * errors
+    half = student_quantile(freedom) * errors
     slope, cohesion = (Estimate(lines[..., k], (lines - half)[..., k], (lines + half)[..., k], None) for k in (0, 1))
     return EnsembleStrength(as_angle(slope), cohesion)
 

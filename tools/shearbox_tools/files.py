@@ -3,6 +3,7 @@
 
 import json
 import os
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -11,9 +12,11 @@ from .errors import ShearboxError
 # what the tools write into the folder of a run
 RECORD = "run.json"
 LOCK = ".lock"
+SUMS = "SHA256SUMS"  # in each folder of a phase
 TIMINGS = "timings.json"
 SUMMARY = "summary.json"
 PAGE = "report.html"
+DRAFT = ".draft"  # ending of a file that is being written
 CURVE = "curve.csv"  # in the folder of a stress
 
 # what the decks read and write; the head of each deck says so
@@ -21,13 +24,16 @@ PACKED = "packed"  # folder of the packing
 PACKED_TABLE = "packed.csv"
 PACKED_RESTART = "packed.restart"
 CONSOLIDATED_TABLE = "consolidated.csv"
+CONSOLIDATED_RESTART = "consolidated.restart"
 SHEAR_TABLE = "shear.dat"
-SHEAR_DONE = "shear.done"
+SHEARED_RESTART = "sheared.restart"
 SHEAR_RESTARTS = ("shear.restart.a", "shear.restart.b")
 GRAINS_DUMP = "grains.dump"
 DISCS_DUMP = "discs.dump"
 CONTACTS_DUMP = "contacts.dump"
+DUMPS = (GRAINS_DUMP, DISCS_DUMP, CONTACTS_DUMP)
 COLUMNS = ".columns"  # ending of the file beside a dump that names its columns
+FRAMES = (*DUMPS, "discs" + COLUMNS, "contacts" + COLUMNS)  # what pictures are made of
 
 
 def stress_folder(folder: Path, sigma: float) -> Path:
@@ -40,17 +46,25 @@ def log_file(folder: Path, deck: str) -> Path:
     return folder / f"{deck}.log"
 
 
+def sync(path: Path) -> None:
+    """Wait until what was written to the file is on the disk, so that a power cut does not lose it."""
+    with path.open("rb") as stream:
+        os.fsync(stream.fileno())
+
+
 def write_text(path: Path, text: str) -> None:
     """Write the file at once: an interruption or a full disk leaves the earlier one as it was."""
-    draft = path.with_name(path.name + ".draft")
+    draft = path.with_name(path.name + DRAFT)
     try:
-        with draft.open("w", encoding="utf-8") as stream:
+        draft.unlink(missing_ok=True)
+        with draft.open("x", encoding="utf-8") as stream:  # x follows no link that has come in between
             stream.write(text)
             stream.flush()
             os.fsync(stream.fileno())
         draft.replace(path)
     except OSError as error:
-        draft.unlink(missing_ok=True)
+        with suppress(OSError):
+            draft.unlink(missing_ok=True)
         raise ShearboxError(f"{path}: {error.strerror}") from error
 
 

@@ -5,8 +5,10 @@ import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
-_LOOP = re.compile(r"^Loop time of (\S+) on (\d+) procs for (\d+) steps", re.MULTILINE)
-_SHARE = re.compile(r"^(Pair|Neigh|Comm|Output|Modify|Other)\s*\|[^|]*\|([^|]*)\|", re.MULTILINE)
+_NUMBER = r"\d{1,15}(?:\.\d*)?(?:e[-+]?\d\d)?"
+_LOOP = re.compile(rf"^Loop time of ({_NUMBER}) on \d+ procs for (\d{{1,18}}) steps", re.MULTILINE)
+# "Other" has its mean in the next column, and is not looked for
+_SHARE = re.compile(rf"^(Pair|Neigh|Comm|Output|Modify)\s*\|[^|]*\|\s*({_NUMBER})\s*\|", re.MULTILINE)
 
 
 @dataclass
@@ -35,12 +37,11 @@ def read_log(path: Path) -> Log:
     except OSError:
         return Log()
     log = Log(_first(r"^LAMMPS \(([^)]*)\)", text), _first(r"^Shearbox (.*)$", text))
-    for seconds, _, steps in _LOOP.findall(text):
+    for seconds, steps in _LOOP.findall(text):
         log.seconds += float(seconds)
         log.steps += int(steps)
     for part, seconds in _SHARE.findall(text):
-        if seconds.strip():  # "Other" has its mean in the next column
-            log.parts[part] = log.parts.get(part, 0.0) + float(seconds)
+        log.parts[part] = log.parts.get(part, 0.0) + float(seconds)
     log.parts["Other"] = max(0.0, log.seconds - sum(log.parts.values()))
     return log
 

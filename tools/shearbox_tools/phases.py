@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The phases of a run: which deck, in which folder, with which variables, and when it is done."""
 
+import math
 import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from .errors import InputError
-from .files import CONSOLIDATED_TABLE, PACKED, PACKED_RESTART, PACKED_TABLE, SHEAR_DONE, SHEAR_TABLE
-from .files import log_file, stress_folder
+from .errors import InputError, ShearboxError
+from .files import CONSOLIDATED_RESTART, CONSOLIDATED_TABLE, FRAMES, PACKED, PACKED_RESTART, PACKED_TABLE
+from .files import SHEAR_RESTARTS, SHEAR_TABLE, SHEARED_RESTART, log_file, stress_folder
 from .models import INPUT, read_variables
-from .readers import last_value
+from .readers import last_value, read_row, read_shear
 from .request import Request
+from .restarts import step_of
+from .seals import Seal, look_at, seal, unseal
 
 DECKS = PACK, CONSOLIDATE, SHEAR = "pack", "consolidate", "shear"
 BYTES_PER_FRAME_AND_DISC = 400  # of the three dumps together; the walls' share is in it
@@ -18,12 +21,14 @@ BYTES_PER_FRAME_AND_DISC = 400  # of the three dumps together; the walls' share 
 
 @dataclass(frozen=True)
 class Phase:
-    """One call of the engine; `product` is the table that is there when it is done."""
+    """One call of the engine: what it writes is a table, a restart file of the end, and perhaps frames."""
 
     name: str
     folder: Path
     variables: dict[str, str]
-    product: str
+    product: str  # the table
+    restart: str
+    frames: tuple[str, ...] = ()
     sigma: float | None = None  # kPa
 
     @property
@@ -47,16 +52,54 @@ class Phase:
         return self.folder / f"{self.name}.out"
 
     @property
-    def done(self) -> bool:
-        """Whether an earlier run finished it: the product is there, and the engine said goodbye in the log.
+    def ended(self) -> bool:
+        """Whether the engine has come to the end: it said goodbye, and all it should have written is whole.
 
-        Neither alone is enough: the restart file is written after the product, and a full disk loses the last lines.
+        Neither alone is enough: a full disk loses the last lines.
         """
         try:
-            product = (self.folder / self.product).read_bytes()
-            return product.endswith(b"\n") and b"\nTotal wall time:" in self.log.read_bytes()
+            goodbye = b"\nTotal wall time:" in self.log.read_bytes()
         except OSError:
             return False
+        return goodbye and step_of(self.folder / self.restart) is not None and self._is_whole()
+
+    @property
+    def done(self) -> bool:
+        """Whether it came to the end, its table is as it was then, and so are frames that are still there."""
+        product = look_at(self.folder / self.product)
+        if product is Seal.UNKNOWN:
+            return self.ended
+        return self._is_whole() and not any(look_at(self.folder / name) is Seal.ALTERED for name in self.frames)
+
+    def _is_whole(self) -> bool:
+        """Whether the table is complete; checkpoints are removed after all else."""
+        path = self.folder / self.product
+        try:
+            complete = len(read_shear(path)["step"]) == rows_of_shear() if self.name == SHEAR else bool(read_row(path))
+        except ShearboxError:
+            return False
+        return complete and not any((self.folder / name).exists() for name in self.checkpoints)
+
+    @property
+    def leads_on(self) -> bool:
+        """Whether the next phase can begin with its restart file."""
+        path = self.folder / self.restart
+        return look_at(path) is Seal.INTACT or (look_at(path) is Seal.UNKNOWN and step_of(path) is not None)
+
+    def seal(self) -> None:
+        """Seal what there is while no engine runs, at its end or where it was stopped."""
+        restarts = [n for n in (self.restart, *self.checkpoints) if step_of(self.folder / n) is not None]
+        seal(self.folder, [self.product, *self.frames, *restarts])
+
+    def unseal(self) -> None:
+        """Before an engine writes again; what it goes on from stays sealed."""
+        gone = [name for name in self.checkpoints if not (self.folder / name).exists()]
+        unseal(self.folder, [self.product, *self.frames, self.restart, *gone])
+
+    @property
+    def checkpoints(self) -> tuple[str, ...]:
+        """Restart files that it writes in turn while it runs."""
+        return SHEAR_RESTARTS if self.name == SHEAR else ()
 
     def displacement(self) -> float:
         """Shear displacement (mm) reached so far, from the last whole row of shear.dat; 0 when there is none."""
@@ -70,7 +113,7 @@ def deck(name: str) -> Path:
 
 def packing(folder: Path, request: Request) -> Phase:
     """The phase that all stresses share."""
-    return Phase(PACK, folder / PACKED, _common(request, folder / PACKED), PACKED_TABLE)
+    return Phase(PACK, folder / PACKED, _common(request, folder / PACKED), PACKED_TABLE, PACKED_RESTART)
 
 
 def shearing(folder: Path, request: Request, sigma: float) -> list[Phase]:
@@ -80,15 +123,48 @@ def shearing(folder: Path, request: Request, sigma: float) -> list[Phase]:
     packed = os.path.relpath(folder / PACKED / PACKED_RESTART, place)  # no blank, whatever the folder's name
     shear = {"speed": f"{request.speed:g}", "travel": f"{request.travel:g}"}
     return [
-        Phase(CONSOLIDATE, place, {**common, "packed": packed}, CONSOLIDATED_TABLE, sigma),
-        Phase(SHEAR, place, {**common, **shear}, SHEAR_DONE, sigma),
+        Phase(CONSOLIDATE, place, {**common, "packed": packed}, CONSOLIDATED_TABLE, CONSOLIDATED_RESTART, sigma=sigma),
+        Phase(SHEAR, place, {**common, **shear}, SHEAR_TABLE, SHEARED_RESTART, FRAMES, sigma),
     ]
+
+
+def all_phases(folder: Path, request: Request) -> list[Phase]:
+    """In the order of the work."""
+    return [packing(folder, request), *(p for sigma in request.stresses for p in shearing(folder, request, sigma))]
+
+
+def left_to_do(folder: Path, request: Request) -> tuple[list[Phase], list[list[Phase]]]:
+    """The packing, if it has to be made, and what each stress lacks.
+
+    What is done but has lost its restart file is done again only where a later phase needs that file.
+    """
+    chains = []
+    for sigma in request.stresses:
+        consolidate, shear = shearing(folder, request, sigma)
+        left = [] if shear.done else [shear]
+        if not consolidate.done or (left and not consolidate.leads_on):
+            left.insert(0, consolidate)
+        chains.append(left)
+    pack = packing(folder, request)
+    needed = any(phase.name == CONSOLIDATE for left in chains for phase in left)
+    return [] if pack.done and (pack.leads_on or not needed) else [pack], [left for left in chains if left]
+
+
+def rows_of_shear() -> int:
+    """Rows of a shear.dat that is complete."""
+    return int(read_variables(deck(SHEAR))["rows"])
+
+
+def steps_between_frames(steps_between_rows: int) -> int:
+    """As shear.in has it."""
+    variables = read_variables(deck(SHEAR))
+    return steps_between_rows * math.ceil(int(variables["rows"]) / int(variables["frames"]))
 
 
 def disk_need(request: Request, folder: Path) -> int:
     """Bytes that the phases not yet done will write, roughly."""
     frames = 1 + int(read_variables(deck(SHEAR))["frames"])
-    left = [s for s in request.stresses if not all(phase.done for phase in shearing(folder, request, s))]
+    left = [chain for chain in left_to_do(folder, request)[1] if chain[-1].name == SHEAR]
     return int(len(left) * request.model.ngrains * request.model.discs * BYTES_PER_FRAME_AND_DISC * frames)
 
 

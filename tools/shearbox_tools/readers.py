@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from .errors import ShearboxError
+from .seals import refuse_altered
 
 NEEDED = (
     "step",
@@ -21,15 +22,28 @@ NEEDED = (
     "residual_J",
 )  # columns of shear.dat that the report is made of; all that there are go into its curves
 
+BED = (
+    "grains",
+    "height_m",
+    "solid_fraction",
+    "solid_fraction_bottom",
+    "solid_fraction_top",
+    "unbalanced",
+    "kinetic_J",
+    "steps",
+)  # columns of packed.csv and consolidated.csv
+
 Columns = dict[str, np.ndarray]
 
 
 def read_shear(path: Path) -> Columns:
     """Block averages over the shear phase, in order of the steps, by the names that the header gives.
 
-    After an interruption there is a second header, and some steps are written again: the last row of a step counts.
-    A last line without its end is what an engine that was stopped leaves behind, and is left out.
+    Rows are of evenly spaced steps, the first as far from 0; missing ones are an error. After a continuation by hand
+    there is a second header, and some steps are written again: the last row of a step counts. A last line without its
+    end is what an engine that was stopped leaves behind, and is left out.
     """
+    refuse_altered(path)
     names: list[str] = []
     rows: dict[int, list[float]] = {}
     for number, line in enumerate(_whole_lines(path), start=1):
@@ -42,8 +56,27 @@ def read_shear(path: Path) -> Columns:
             rows[int(row[names.index("step")])] = row
     if not rows:
         raise ShearboxError(f"{path}: there are no rows of data in it")
+    _refuse_gaps(sorted(rows), path)
     table = np.array([rows[step] for step in sorted(rows)])
     return dict(zip(names, table.T))
+
+
+def _refuse_gaps(steps: list[int], path: Path) -> None:
+    between = min(np.diff([0, *steps]))
+    for before, step in zip([0, *steps], steps):
+        if step != before + between:
+            raise ShearboxError(f"{path}: the rows between the steps {before} and {step} are missing")
+
+
+def cut_rows(path: Path, step: int) -> None:
+    """Cut the table off after the row of that step."""
+    end = 0
+    with path.open("rb") as stream:
+        for line in stream:
+            if line.strip() and not line.startswith(b"#") and float(line.split()[0]) > step:
+                break
+            end += len(line)
+    os.truncate(path, end)
 
 
 def _header(line: str, before: list[str], path: Path, number: int) -> list[str]:
@@ -80,12 +113,15 @@ def last_value(path: Path, column: str) -> float | None:
 
 
 def read_row(path: Path) -> dict[str, float]:
-    """The one row of numbers of a csv file with a header."""
+    """The one row of numbers of the csv file of a packing or a consolidation."""
+    refuse_altered(path)
     lines = [line.replace(",", " ") for line in _whole_lines(path) if line.strip()]
     if len(lines) < 2:
         raise ShearboxError(f"{path}: a header and a row of numbers are expected, there are {len(lines)} whole lines")
     header = lines[0].split()
-    return dict(zip(header, parse_numbers(lines[1], len(header), path, 2)))
+    row = dict(zip(header, parse_numbers(lines[1], len(header), path, 2)))
+    require(header, BED, path)
+    return row
 
 
 def parse_numbers(line: str, count: int, path: Path, number: int) -> list[float]:

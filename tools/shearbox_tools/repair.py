@@ -1,35 +1,69 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Cutting off what a stopped engine left half written, before another one appends to it."""
+"""Making a folder ready for an engine, which goes on from a restart file or begins anew."""
 
-import os
-from collections.abc import Callable
-from pathlib import Path
+from dataclasses import replace
 
-from .dumps import last_whole_byte
-from .files import CONTACTS_DUMP, DISCS_DUMP, GRAINS_DUMP, SHEAR_RESTARTS, SHEAR_TABLE
-
-
-def repair(folder: Path) -> None:
-    """Cut each file that a continued phase appends to at the end of its last whole row or frame."""
-    _cut(folder / SHEAR_TABLE, _last_line_end)
-    for name in (GRAINS_DUMP, DISCS_DUMP, CONTACTS_DUMP):
-        _cut(folder / name, last_whole_byte)
-    _drop_lone_restart(folder)
+from .dumps import Dump
+from .errors import ShearboxError
+from .files import DUMPS, SHEAR_TABLE
+from .phases import Phase, steps_between_frames
+from .readers import cut_rows, read_shear
+from .restarts import step_of
+from .seals import Seal, look_at
 
 
-def _cut(path: Path, find_end: Callable[[Path], int]) -> None:
-    if path.is_file():
-        size, end = path.stat().st_size, find_end(path)
-        if end < size:
-            os.truncate(path, end)
+def make_ready(phase: Phase) -> tuple[Phase, list[str]]:
+    """The phase as it can be started, going on if it can; and what had to be given up for that.
+
+    Of the restart files that are whole the latest is taken which table and dumps reach, too: a power cut may lose what
+    was written to them last. They are cut off behind it, so nothing is in them twice. Without one all is written anew.
+    """
+    steps, notes = _steps_of_checkpoints(phase)
+    for name, step in sorted(steps.items(), key=lambda item: -item[1]):
+        try:
+            dumps, frame = _reaching(phase, step)
+        except ShearboxError as error:
+            notes.append(f"{name}, of step {step}, is of no use: {error}")
+            continue
+        _remove(phase, [other for other in phase.checkpoints if steps.get(other, step + 1) > step])
+        phase.unseal()
+        cut_rows(phase.folder / SHEAR_TABLE, step)
+        for dump in dumps:
+            dump.cut(frame)
+        return replace(phase, variables=phase.variables | {"from": name[-1]}), notes
+    _remove(phase, [phase.product, *phase.frames, phase.restart, *phase.checkpoints])
+    phase.unseal()
+    return phase, notes
 
 
-def _last_line_end(path: Path) -> int:
-    return path.read_bytes().rfind(b"\n") + 1
+def _steps_of_checkpoints(phase: Phase) -> tuple[dict[str, int], list[str]]:
+    """Of those that are whole, by name; and what is wrong with the others."""
+    steps, notes = {}, []
+    for name in phase.checkpoints:
+        path = phase.folder / name
+        step = step_of(path)
+        if step is not None and look_at(path) is not Seal.ALTERED:
+            steps[name] = step
+        elif path.exists():
+            notes.append(f"{name} is damaged or half written")
+    return steps, notes
 
 
-def _drop_lone_restart(folder: Path) -> None:
-    """Of two restart files the older one is whole; a single one may have been cut off while it was written."""
-    found = [folder / name for name in SHEAR_RESTARTS if (folder / name).exists()]
-    if len(found) == 1:
-        found[0].unlink()
+def _reaching(phase: Phase, step: int) -> tuple[list[Dump], int]:
+    """The dumps, and the step of their last frame up to a step that they and the table reach without a gap."""
+    table = phase.folder / SHEAR_TABLE
+    rows = [int(row) for row in read_shear(table)["step"]]
+    if step not in rows:
+        raise ShearboxError(f"{table} has no row of that step")
+    every = steps_between_frames(rows[0])
+    frames = list(range(0, step + 1, every))
+    dumps = [Dump(phase.folder / name) for name in DUMPS]
+    for dump in dumps:
+        if [frame for frame in dump.steps if frame <= step] != frames:
+            raise ShearboxError(f"{dump.path} lacks frames before that step")
+    return dumps, frames[-1]
+
+
+def _remove(phase: Phase, names: list[str]) -> None:
+    for name in names:
+        (phase.folder / name).unlink(missing_ok=True)

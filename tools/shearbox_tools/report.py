@@ -16,7 +16,7 @@ from .files import CURVE, PAGE, SUMMARY, write_json, write_text
 from .models import PARAMETERS, read_comments
 from .results import Results, read_results
 from .shear import Shear
-from .specimen import Film
+from .specimen import Film, missing_frames
 from .strength import KNOWN_SCATTER
 from .summary import phase_logs, summarise
 
@@ -47,6 +47,8 @@ def _pictures(results: Results) -> dict[str, str]:
     """Data URIs by name: the diagrams, and a picture of the specimen per stress where its dumps can be read."""
     pictures = draw_curves(results)
     for shear in results.shears:
+        if missing_frames(shear.folder):
+            continue  # there is a note
         try:
             film = Film(shear.folder, shear.data["step"], shear.data["displacement_mm"])
             pictures[f"specimen {shear.sigma:g}"] = draw_specimen(film, shear.peak.position)

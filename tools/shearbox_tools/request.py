@@ -5,12 +5,15 @@ import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from .errors import InputError, ShearboxError
-from .files import RECORD, write_json
+from .files import DRAFT, LOCK, PACKED, RECORD, write_json
 from .models import PARAMETERS, Model, read_variables
 from .presets import LAWS
+
+_NUMBERS = ("speed_mm_s", "travel_mm", "seed", "stiffness", "model ngrains", "model width", "model half_height")
+_REMEDY = "Put back a copy of it, or run in another folder"
 
 
 @dataclass(frozen=True)
@@ -97,44 +100,67 @@ def _dt_problems(dt: str) -> list[str]:
     return [f"--dt {dt}: 'auto' or 1e-10 to 1e-4 s are expected"]
 
 
-def open_folder(folder: Path, request: Request, parameters: dict[str, str]) -> None:
-    """Make the folder of this request or take up an earlier one; refuse a folder of another request."""
-    asked = request.identity(parameters)
-    path = folder / RECORD
-    stresses = set(request.stresses)
-    if path.exists():
+def check_folder(folder: Path, request: Request, parameters: dict[str, str]) -> set[float]:
+    """Refuse a folder of another request, or of something else; the stresses (kPa) that an earlier run asked for."""
+    if (folder / RECORD).exists():
         known = read_record(folder)
-        there = known["identity"]
+        there, asked = known["identity"], request.identity(parameters)
         if there != asked:
             raise InputError(f"{folder} holds another run:\n" + "\n".join(_differences(there, asked)))
-        stresses |= set(known["stresses"])
-    elif folder.exists() and not folder.is_dir():
+        return set(known["stresses"])
+    if folder.exists() and not folder.is_dir():
         raise InputError(f"--out {folder}: this is a file, a folder is expected")
-    elif folder.is_dir() and any(folder.iterdir()):
+    if (folder / PACKED).exists():
+        raise InputError(f"--out {folder}: {RECORD} is lost, which says what its results are of. {_REMEDY}")
+    ours = {LOCK, RECORD + DRAFT}  # of a run that is just beginning
+    if folder.is_dir() and {path.name for path in folder.iterdir()} - ours:
         raise InputError(f"--out {folder}: this folder holds something else than a run (there is no {RECORD} in it)")
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(f"--out {folder}: {error.strerror}") from error
+    return set()
+
+
+def open_folder(folder: Path, request: Request, parameters: dict[str, str]) -> None:
+    """Begin the record of this request, or take up an earlier one; the folder must be locked."""
+    stresses = check_folder(folder, request, parameters) | set(request.stresses)
     where = str(request.model.path.resolve())
-    write_json(path, {"identity": asked, "stresses": sorted(stresses), "model_file": where})
+    record = {"identity": request.identity(parameters), "stresses": sorted(stresses), "model_file": where}
+    write_json(folder / RECORD, record)
 
 
 def read_record(folder: Path) -> dict[str, Any]:
-    """`identity`, `stresses` and `model_file` of the run in a folder; the first two are always there."""
+    """`identity`, `stresses` and `model_file` of the run in a folder."""
     path = folder / RECORD
     try:
         record = json.loads(path.read_text(encoding="utf-8"))
-        _ = record["identity"]["model"], record["stresses"][0]
-        return record
+        return {"model_file": "", **record} if _is_record(record) else _refuse(path, "this is not the record of a run")
     except FileNotFoundError as error:
         raise ShearboxError(f"{folder} holds no run: there is no {RECORD} in it") from error
     except OSError as error:
         raise ShearboxError(f"{path}: {error.strerror}") from error
     except json.JSONDecodeError as error:
-        raise ShearboxError(f"{path}, line {error.lineno}: {error.msg}") from error
-    except (KeyError, IndexError, TypeError) as error:
-        raise ShearboxError(f"{path}: this is not the record of a run ({error!r})") from error
+        return _refuse(path, f"line {error.lineno}: {error.msg}")
+    except UnicodeDecodeError as error:
+        return _refuse(path, f"byte {error.start} is not UTF-8")
+
+
+def _refuse(path: Path, problem: str) -> NoReturn:
+    raise ShearboxError(f"{path}, {problem}. {_REMEDY}")
+
+
+def _is_record(record: Any) -> bool:
+    """Whether all is there that a report reads."""
+    try:
+        identity, stresses = record["identity"], record["stresses"]
+        parameters = identity["parameters"]
+        texts = [identity["model"], identity["law"], identity["dt"], record.get("model_file", "")]
+        numbers = [identity[name] for name in _NUMBERS] + stresses
+    except (KeyError, TypeError, AttributeError):
+        return False
+    return (
+        isinstance(parameters, dict)
+        and len(stresses) > 0
+        and all(isinstance(text, str) for text in texts)
+        and all(type(x) in (int, float) and math.isfinite(x) and x > 0 for x in numbers)
+    )
 
 
 def _differences(there: dict[str, Any], asked: dict[str, Any]) -> list[str]:

@@ -11,14 +11,15 @@ import numpy as np
 from .ensemble import Estimate, as_angle, mean_of
 from .errors import ShearboxError
 from .features import proportional
-from .files import CONSOLIDATED_TABLE, PACKED, PACKED_TABLE, SHEAR_DONE, SHEAR_TABLE, stress_folder
+from .files import CONSOLIDATED_TABLE, GRAINS_DUMP, PACKED, PACKED_TABLE, SHEAR_TABLE, stress_folder
 from .motion import full_speed
 from .peak import Peak
+from .phases import rows_of_shear
 from .polynomial import FEWEST_ROWS
 from .readers import read_row, read_shear
 from .request import read_record
 from .shear import Shear, analyse
-from .specimen import count_lost
+from .specimen import count_lost, missing_frames
 from .strength import Line, fit_line
 from .verdict import Verdict
 
@@ -124,8 +125,13 @@ def _read_shear(
     if rows.stop - rows.start < FEWEST_ROWS:
         notes.append(f"{sigma:g} kPa has {rows.stop - rows.start} rows at full speed only, too few to fit a curve")
         return None
-    lost = _lost(place, identity, problems)
-    return analyse(sigma, place, data, rows, (place / SHEAR_DONE).exists(), identity, bed, lost)
+    if missing := missing_frames(place):
+        notes.append(
+            f"{sigma:g} kPa has no {', '.join(missing)} and so no picture; without {path} it would be run again"
+        )
+    lost = None if GRAINS_DUMP in missing else _lost(place, identity, problems)
+    complete = len(data["step"]) == rows_of_shear()
+    return analyse(sigma, place, data, rows, complete, identity, bed, lost)
 
 
 def _lost(place: Path, identity: dict[str, Any], problems: list[str]) -> int | None:

@@ -7,13 +7,14 @@ from pathlib import Path
 
 from rich.console import Console
 
-from .campaign import Campaign, locked
+from .campaign import Campaign
 from .display import make_display
-from .engine import PROGRAM, Engine, free_bytes
+from .engine import PROGRAM, Engine, Failure, free_bytes
 from .errors import InputError, ShearboxError
+from .lock import locked
 from .models import INPUT, PARAMETERS, all_models, find_model, read_variables
 from .phases import DECKS, deck, disk_need, shearing
-from .request import Request, check, open_folder
+from .request import Request, check, check_folder, open_folder
 
 SPARE_BYTES = 100_000_000
 GIVEN = {"model", "seed", "law", "dt", "stiffness", "sigma", "speed", "travel"}  # they come from the command line
@@ -37,22 +38,33 @@ def run(options: argparse.Namespace) -> None:
     _check_machine(min(options.jobs, len(request.stresses)), engine, console)
     parameters = {k: v for k, v in read_variables(PARAMETERS).items() if k not in GIVEN}
     folder: Path = options.out
+    check_folder(folder, request, parameters)
     _check_disk(folder, request)
-    open_folder(folder, request, parameters)
+    with locked(folder) as lock:
+        open_folder(folder, request, parameters)
+        failures = _carry_out(folder, request, engine, options.jobs, console, lock)
+        problems = _report(folder, console) if any(_sheared(folder, request)) else []
+    if failures:
+        problems += [failure.message for failure in failures] + ["The other results are kept."]
+    if any(failure.may_pass for failure in failures):
+        problems.append("The same command goes on where this one stopped.")
+    if problems:
+        raise ShearboxError("\n".join(problems))
+
+
+def _report(folder: Path, console: Console) -> list[str]:
+    """Report, and say where; what is wrong with it is returned."""
     from .report import report  # with its libraries a second of loading, which a refusal need not wait for
 
-    with locked(folder) as lock:
-        failures = _carry_out(folder, request, engine, options.jobs, console, lock)
-        page = report(folder) if any(_sheared(folder, request)) else None
-    if page:
-        console.print(f"report: {page}", markup=False, highlight=False, soft_wrap=True)
-    if failures:
-        raise ShearboxError(
-            "\n".join(failures) + "\nThe other results are kept; the same command goes on where this one stopped."
-        )
+    try:
+        page = report(folder)
+    except ShearboxError as error:
+        return [str(error)]
+    console.print(f"report: {page}", markup=False, highlight=False, soft_wrap=True)
+    return []
 
 
-def _carry_out(folder: Path, request: Request, engine: Engine, jobs: int, console: Console, lock: int) -> list[str]:
+def _carry_out(folder: Path, request: Request, engine: Engine, jobs: int, console: Console, lock: int) -> list[Failure]:
     reached = sum(min(s, request.travel) for s in _sheared(folder, request))
     display = make_display(console, request.travel * len(request.stresses), reached)
     try:

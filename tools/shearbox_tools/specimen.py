@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from .dumps import CONTACTS, DISCS, GRAINS, Dump
-from .files import CONTACTS_DUMP, DISCS_DUMP, GRAINS_DUMP
+from .files import CONTACTS_DUMP, DISCS_DUMP, FRAMES, GRAINS_DUMP
 from .readers import Columns
 
 
@@ -38,6 +38,11 @@ class Moment:
         ends = [centres[[row[i] for i in self.contacts[name]]] for name in ("id1", "id2")]
         points = np.column_stack([self.contacts["x"], self.contacts["y"]])
         return np.stack([ends[0], points, ends[1]], axis=1)
+
+
+def missing_frames(folder: Path) -> list[str]:
+    """Files of the frames of a shear phase that are gone: they may be removed when they are no longer wanted."""
+    return [name for name in FRAMES if not (folder / name).exists()]
 
 
 class Film:

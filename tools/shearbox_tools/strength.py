@@ -31,6 +31,11 @@ class Line:
         return self.quantile * np.sqrt(np.einsum("ij,jk,ik->i", design, self.covariance, design))
 
 
+def student_quantile(freedom: float) -> float:
+    """Standard errors in the half-width of an interval of COVERAGE; with infinite freedom those of a normal error."""
+    return float(stats.t.ppf((1 + COVERAGE) / 2, freedom))
+
+
 def fit_line(sigma: np.ndarray, tau: np.ndarray, tau_error: np.ndarray) -> Line:
     """Weighted least squares through n >= 2 points (sigma, tau +- tau_error), all in kPa; sigma is exact (the load is).
 
@@ -47,11 +52,11 @@ def fit_line(sigma: np.ndarray, tau: np.ndarray, tau_error: np.ndarray) -> Line:
     cohesion, slope = covariance @ design.T @ (weights * tau)
     residuals = tau - cohesion - slope * sigma
     dof = len(sigma) - 2
-    chi2_reduced, quantile = None, float(stats.norm.ppf((1 + COVERAGE) / 2))
+    chi2_reduced, quantile = None, student_quantile(np.inf)
     if dof > 0:
         chi2_reduced = float(np.sum(weights * residuals**2) / dof)
         covariance = covariance * max(1.0, chi2_reduced)
-        quantile = float(stats.t.ppf((1 + COVERAGE) / 2, dof))
+        quantile = student_quantile(dof)
     total = np.sum(weights * (tau - np.average(tau, weights=weights)) ** 2)
     through_origin = np.sum(weights * sigma * tau) / np.sum(weights * sigma**2)
     return Line(

@@ -28,12 +28,24 @@ void DiscPairList::init(const cdem::LawTable &of_run, const ByTypes &by_types, c
   instructions = widest;
   history = memory;
   history->list = this;
-  history->remember(law.remembered());
   audit = FixCDEMAudit::find(lmp);
+  remember_numbers();
   grains = FixCDEMGrains::find(lmp);
   rows.init(grains, cdem::kernels(law.rules, instructions));
   speed = -1;
   is_of_run = false;
+}
+
+// Beside what the law remembers, the forces of the dashpots at the end of the last step, for the books: at setup the
+// dashpots take other velocities (see PairCDEM::compute), so a continued run would book its first step otherwise.
+void DiscPairList::remember_numbers() {
+  static constexpr std::array<const char *, 2 + cdem::MOST_NUMBERS> DASHPOTS{
+      "dashpot_n", "dashpot_t", "dashpot_1", "dashpot_2", "dashpot_3",
+      "dashpot_4", "dashpot_5", "dashpot_6", "dashpot_7", "dashpot_8"};
+  std::vector<cdem::Remembered> all = law.remembered();
+  for (int d = 0; audit && d < 2 + law.books(); d++)
+    all.push_back({DASHPOTS[d], "N", d >= 2});
+  history->remember(all);
 }
 
 void DiscPairList::exchange_ghosts() {
@@ -52,9 +64,11 @@ void DiscPairList::rebuild(const NeighList *of_grains) {
 
 void DiscPairList::pair_forces(int block) {
   has_history = true;
-  if (rows.has_lines())
-    feet.place(block);
   const double dt = update->setupflag ? 0 : update->dt;
+  if (rows.has_lines()) {
+    feet.place(block);
+    feet.take_over_contacts(block, pairs, dt);
+  }
   cdem::PairColumns columns = pairs.columns(slots.data());
   if (fetches_ahead)
     columns.ahead = {rows.discs() + slots.read_end(block), rows.body(block_starts[block])};
@@ -62,9 +76,14 @@ void DiscPairList::pair_forces(int block) {
     const auto &segment = pairs.segments[k];
     kernels.forces(rows.discs(), columns, segment.material, segment.begin, segment.end, dt);
   }
+  if (rows.has_lines())
+    feet.remember_elsewhere(block, pairs);
 }
 
 void DiscPairList::forces() {
+  std::vector<Dashpots> at_end_of_step;
+  if (update->setupflag && pairs.has_books())
+    pairs.for_each([&](int k, const cdem::Material &) { at_end_of_step.push_back(pairs.last_dashpots_of(k)); });
   for (int block = 0; block < slots.blocks(); block++) {
     const int begin = block_starts[block], end = block_starts[block + 1];
     pair_forces(block);
@@ -77,6 +96,18 @@ void DiscPairList::forces() {
       atom->torque[i][2] += torque;
     }
   }
+  if (!at_end_of_step.empty())
+    take_back(at_end_of_step);
+}
+
+// Of those contacts that had any: others are new, or their run was not audited.
+void DiscPairList::take_back(const std::vector<Dashpots> &known) {
+  auto next = known.begin();
+  pairs.for_each([&](int k, const cdem::Material &) {
+    if (std::any_of(next->begin(), next->end(), [](double x) { return x != 0; }))
+      pairs.set_last_dashpots(k, next->data());
+    ++next;
+  });
 }
 
 // Keeps the force of every pair, for code that looks at single contacts.
@@ -348,8 +379,10 @@ void DiscPairList::recall_history(int k) {
             q = rows.disc(pairs.b(k));
   const bool i_is_own = i < atom->nlocal;
   if (const double *const known = i_is_own ? history->find(i, {atom->tag[j], short(p), short(q)})
-                                           : history->find(j, {atom->tag[i], short(q), short(p)}))
+                                           : history->find(j, {atom->tag[i], short(q), short(p)})) {
     pairs.set_remembered(k, known);
+    pairs.set_last_dashpots(k, known + 1 + law.memories());
+  }
 }
 
 cdem::LawTable::Energy DiscPairList::energy(int k, const cdem::Material &m) const {
@@ -426,10 +459,14 @@ void DiscPairList::copy_history_to_grains() {
     return;
   book_losses();
   const int own_grains = block_starts.back();
-  const int numbers = 1 + law.memories();
+  const int memories = 1 + law.memories(), numbers = memories + (booking ? 2 + law.books() : 0);
   auto for_each_memory = [&](auto visit) { // visit(grain, contact as it remembers it, its numbers)
     pairs.for_each([&](int k, const cdem::Material &) {
-      const auto all = pairs.remembered(k);
+      std::array<double, FixCDEMHistory::MOST> all{};
+      const auto of_law = pairs.remembered(k);
+      std::copy_n(of_law.begin(), memories, all.begin());
+      const auto dashpots = pairs.last_dashpots_of(k);
+      std::copy_n(dashpots.begin(), numbers - memories, all.begin() + memories);
       if (std::all_of(all.begin(), all.begin() + numbers, [](double x) { return x == 0; }))
         return;
       const int a = pairs.a(k), b = pairs.b(k);

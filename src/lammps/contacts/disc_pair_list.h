@@ -12,6 +12,7 @@
 
 #include "pointers.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -90,6 +91,9 @@ private:
   void set_law_constants(int k);
   cdem::TwoGrains::Grain grain_of(int row) const;
   void recall_history(int k);
+  void remember_numbers();
+  using Dashpots = std::array<double, 2 + cdem::MOST_NUMBERS>;
+  void take_back(const std::vector<Dashpots> &);
   int most_pairs() const;
   void pair_forces(int block);
   void keep_forces(int block);

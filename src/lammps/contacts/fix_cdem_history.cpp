@@ -20,12 +20,12 @@ using namespace LAMMPS_NS;
 
 namespace {
 constexpr tagint NOBODY = 0;
-constexpr int VERSION = 1; // of what restart files keep
+constexpr int VERSION = 2; // of what restart files keep
 
 // The names of the remembered numbers, in restart files.
 struct Names {
   int count;
-  char name[1 + cdem::MOST_NUMBERS][cdem::LONGEST_NAME + 1];
+  char name[FixCDEMHistory::MOST][cdem::LONGEST_NAME + 1];
 };
 
 static_assert(cdem::GrainShape::MOST_DISCS <= SHRT_MAX); // a Contact stores the index of a disc as short

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/declaration.h"
+#include "core/rules.h"
 #include "host/glides.h"
 
 #include "fix.h"
@@ -30,6 +31,8 @@ public:
 class FixCDEMHistory : public Fix, public Glides {
 public:
   static constexpr const char *ID = "CDEM_HISTORY";
+  // The most numbers of a contact: the tangential spring, those of the law, and for an audit as many dashpots.
+  static constexpr int MOST = 1 + cdem::MOST_NUMBERS + 2 + cdem::MOST_NUMBERS;
 
   // A contact as one of its grains stores it: the id of the other grain, and the index of the disc in either. What it
   // remembers is always said of the pair in which the grain of the lower id comes first.

@@ -11,7 +11,7 @@ using namespace LAMMPS_NS;
 void LineFeet::take_over(cdem::DiscPairs &pairs) {
   feet.clear();
   first_of_block.assign(1, 0);
-  std::vector<int> pair_of_foot, piece_of_foot;
+  std::vector<int> piece_of_foot;
   for (std::size_t block = 0; block + 1 < pairs.first_segment.size(); block++) {
     for (int s = pairs.first_segment[block]; s < pairs.first_segment[block + 1]; s++)
       for (int k = pairs.segments[s].begin; k < pairs.segments[s].end; k++) {
@@ -19,8 +19,7 @@ void LineFeet::take_over(cdem::DiscPairs &pairs) {
         if (!rows.is_line(a) && !rows.is_line(b))
           continue;
         const int piece = rows.is_line(a) ? a : b;
-        feet.push_back({a + b - piece, piece, rows.line(piece), NONE, NONE});
-        pair_of_foot.push_back(k);
+        feet.push_back({a + b - piece, piece, k, rows.line(piece), NONE, NONE, true});
         piece_of_foot.push_back(piece);
       }
     first_of_block.push_back(int(feet.size()));
@@ -28,7 +27,7 @@ void LineFeet::take_over(cdem::DiscPairs &pairs) {
   find_neighbours();
   rows.make_feet(piece_of_foot);
   for (std::size_t n = 0; n < feet.size(); n++) {
-    const int k = pair_of_foot[n], row = rows.foot_row(int(n));
+    const int k = feet[n].pair, row = rows.foot_row(int(n));
     const bool piece_is_a = pairs.a(k) == feet[n].piece;
     pairs.set_discs(k, piece_is_a ? row : feet[n].disc, piece_is_a ? feet[n].disc : row);
   }
@@ -70,15 +69,38 @@ void LineFeet::place_all() {
 void LineFeet::place(int block) {
   constexpr double FAR = 1e6; // times the distance of the disc from its foot
   for (int n = first_of_block[block]; n < first_of_block[block + 1]; n++) {
-    const Foot &f = feet[n];
+    Foot &f = feet[n];
     const cdem::Disc<double> &disc = rows[f.disc], &centre = rows[f.piece];
     const double along = cdem::along_line(disc, centre, f.line);
     cdem::Disc<double> &foot = rows.foot(n) = cdem::foot_at(along, disc, centre, f.line);
-    if (acts(f, along))
+    f.acts = acts(f, along);
+    if (f.acts)
       continue;
     foot.x = disc.x + FAR * (foot.x - disc.x);
     foot.y = disc.y + FAR * (foot.y - disc.y);
   }
+}
+
+void LineFeet::take_over_contacts(int block, cdem::DiscPairs &pairs, double dt) const {
+  for (int n = first_of_block[block]; n < first_of_block[block + 1]; n++) {
+    const int k = feet[n].pair;
+    if (!feet[n].acts)
+      pairs.set_es(k, 0);
+    else if (pairs.es(k) == ELSEWHERE)
+      pairs.set_es(k, overlap_before(pairs, k, dt) > 0 ? cdem::TOUCHING : 0);
+  }
+}
+
+void LineFeet::remember_elsewhere(int block, cdem::DiscPairs &pairs) const {
+  for (int n = first_of_block[block]; n < first_of_block[block + 1]; n++)
+    if (!feet[n].acts)
+      pairs.set_es(feet[n].pair, ELSEWHERE);
+}
+
+// One step ago (m).
+double LineFeet::overlap_before(const cdem::DiscPairs &pairs, int k, double dt) const {
+  const auto relative = cdem::relative(rows[pairs.a(k)], rows[pairs.b(k)]);
+  return cdem::contact_of(relative, cdem::distance_of(relative), pairs.constants(k), dt).before;
 }
 
 // At an end where another piece begins, the distances decide, which two ranks that have the pair compute alike.

@@ -2,11 +2,14 @@
 // The feet of discs on the lines of walls (core/wall_line.h). A pair of a disc and a piece of a line has a row of its
 // own in place of the row of the piece. Before the forces of a step are computed it is placed where the disc's foot is,
 // and then the pair is one of two discs like any other. Where two pieces meet, the one that is closer to the disc acts;
-// the foot on the other is placed far away, on the same normal. As the overlap one step ago follows from the velocities
-// of the step, a disc goes from one piece to the next without any event.
+// the foot on the other is placed far away, on the same normal, and remembers ELSEWHERE in place of its spring, which
+// friction would need. So no event (step_events.h) is seen when a disc goes from one piece to the next: the foot that
+// is left forgets the contact, and the one that takes over takes from the velocities of the step whether the disc
+// touched the wall one step ago. The former piece is not asked: a rank that has the pair as a ghost's need not know it.
 #pragma once
 
 #include "core/disc_pairs.h"
+#include "core/step_events.h"
 #include "grains/grain_rows.h"
 
 #include "pointers.h"
@@ -25,20 +28,27 @@ public:
   // Places the feet of the pairs of a block.
   void place(int block);
   void place_all();
+  // To be called before and after the forces of a block, whose feet are placed: what its contacts remember. `dt`:
+  // length of the step just made (s).
+  void take_over_contacts(int block, cdem::DiscPairs &, double dt) const;
+  void remember_elsewhere(int block, cdem::DiscPairs &) const;
 
 private:
-  // On the piece of row `piece`, of a disc. `before` and `behind`: rows of the pieces that meet it at its two ends, or
-  // NONE.
+  // On the piece of row `piece`, of a disc, for a pair. `before` and `behind`: rows of the pieces that meet it at its
+  // two ends, or NONE.
   struct Foot {
-    int disc, piece;
+    int disc, piece, pair;
     cdem::WallLine line;
     int before, behind;
+    bool acts;
   };
   static constexpr int NONE = -1;
+  static constexpr double ELSEWHERE = 0.5 * cdem::TOUCHING; // N; no contact of a smooth wall remembers such a spring
 
   void find_neighbours();
   int piece_at(double x, double y, int besides) const;
   bool acts(const Foot &, double along) const;
+  double overlap_before(const cdem::DiscPairs &, int k, double dt) const;
 
   GrainRows &rows;
   std::vector<Foot> feet;

@@ -33,9 +33,9 @@ FixCDEMAudit::Books FixCDEMAudit::all() const {
   return {sum[0], sum[1], sum[2], sum[3]};
 }
 
-// The losses in the columns of the pair style are in the books by now: fix cdem/history comes before this fix, and when
-// it was written it had the pair style add them.
 void FixCDEMAudit::write_restart(FILE *fp) {
+  if (opener)
+    opener->book_losses();
   const Saved saved{all(), opening, double(open)};
   if (comm->me == 0)
     Shearbox::write_state(fp, VERSION, saved);

@@ -12,11 +12,13 @@ namespace LAMMPS_NS {
 
 class FixCDEMAudit : public Fix, public Glides {
 public:
-  // Computes the energy of all grains and springs, and opens the books at the start of the first run.
+  // Computes the energy of all grains and springs, and opens the books at the start of the first run. Has the contacts
+  // add their losses to the books.
   class Opener {
   public:
     virtual ~Opener() = default;
     virtual void open_books() = 0; // does nothing if they are open
+    virtual void book_losses() = 0;
   };
 
   static constexpr const char *ID = "CDEM_AUDIT";

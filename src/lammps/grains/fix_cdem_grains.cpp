@@ -98,10 +98,11 @@ void FixCDEMGrains::keep_scene() {
 }
 
 bool FixCDEMGrains::scene_is_as_kept() {
+  const double most = rounding();
   int mine = 1, all;
   for (int i = 0; i < atom->nlocal; i++) {
     const Shift shift = shift_from_kept(i);
-    mine &= std::fabs(shift.x) <= rounding() && std::fabs(shift.y) <= rounding(); // not if it is NaN
+    mine &= std::fabs(shift.x) <= most && std::fabs(shift.y) <= most; // not if it is NaN
   }
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MIN, world);
   if (!all || kept.grains != fingerprint_of_grains() || kept.rules != fingerprint_of_rules())

@@ -117,8 +117,9 @@ public:
   int size_restart(int) override;
   int maxsize_restart() override;
 
-  // Outputs of fix cdem/integrate; force (N) and torque (N m) of the last step; place in the scene that was kept (m).
-  enum Column { AX, AY, ALPHA, ANGLE, NOUTPUTS, FX = NOUTPUTS, FY, TORQUE, X, Y, NCOLUMNS };
+  // The outputs of fix cdem/integrate, up to ANGLE; force (N) and torque (N m) of the last step; place in the scene
+  // that was kept (m).
+  enum Column { AX, AY, ALPHA, ANGLE, FX, FY, TORQUE, X, Y, NCOLUMNS };
 
 private:
   struct Periods {

@@ -61,7 +61,7 @@ FixCDEMIntegrate::FixCDEMIntegrate(LAMMPS *lmp, int narg, char **arg)
   time_integrate = 1;
   scalar_flag = 1;
   peratom_flag = 1;
-  size_peratom_cols = FixCDEMGrains::NOUTPUTS;
+  size_peratom_cols = FixCDEMGrains::NCOLUMNS; // all: atom-style variables take it for the distance of two rows
   peratom_freq = 1;
   restart_global = 1;
   force_reneighbor = 1;
@@ -154,8 +154,11 @@ void FixCDEMIntegrate::tell_rules() {
   Shearbox::Fingerprint rules;
   rules.add(PairCDEM::needed_by("Fix cdem/integrate", lmp)->rules());
   for (int type = 1; type <= atom->ntypes; type++) {
-    for (const auto &disc : FixCDEMShape::shape(lmp, type).discs())
+    const cdem::GrainShape &shape = FixCDEMShape::shape(lmp, type);
+    for (const auto &disc : shape.discs())
       rules.add(disc.x).add(disc.y).add(disc.r);
+    if (shape.is_line())
+      rules.add(shape.axis(1).ux).add(shape.axis(1).uy);
     rules.add(grains->inertia(type));
   }
   grains->set_rules(rules.add(gravity[0]).add(gravity[1]).add(drag).add(update->dt).value());

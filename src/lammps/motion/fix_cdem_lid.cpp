@@ -24,7 +24,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 enum Output { APPLIED, FELT, HEIGHT, VELOCITY, CAPPED_STEPS, FORCE_X, NOUTPUTS };
-constexpr int VERSION = 2; // of what restart files keep
+constexpr int VERSION = 3; // of what restart files keep
 } // namespace
 
 FixCDEMLid::FixCDEMLid(LAMMPS *lmp, int narg, char **arg) : WallBody(lmp, narg, arg) {
@@ -207,7 +207,11 @@ double FixCDEMLid::compute_vector(int n) {
 
 void FixCDEMLid::write_restart(FILE *fp) {
   if (comm->me == 0)
-    Shearbox::write_state(fp, VERSION, capped_steps);
+    Shearbox::write_state(fp, VERSION, Saved{capped_steps, booked});
 }
 
-void FixCDEMLid::restart(char *buf) { capped_steps = Shearbox::read_state<double>(lmp, style, VERSION, buf); }
+void FixCDEMLid::restart(char *buf) {
+  const auto saved = Shearbox::read_state<Saved>(lmp, style, VERSION, buf);
+  capped_steps = saved.capped_steps;
+  booked = saved.booked;
+}

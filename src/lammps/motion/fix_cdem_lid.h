@@ -45,6 +45,11 @@ public:
   void restart(char *) override;
 
 private:
+  struct Saved {
+    double capped_steps;
+    Booked booked;
+  };
+
   void read_stress(Shearbox::DeckWords &);
   double group_velocity() const;
   double largest_stiffness() const;

@@ -16,7 +16,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 enum Output { DISPLACEMENT, SPEED, FORCE_X, FORCE_Y, NOUTPUTS };
-constexpr int VERSION = 1; // of what restart files keep
+constexpr int VERSION = 2; // of what restart files keep
 constexpr double PI = 3.14159265358979323846;
 constexpr double RESOLUTION = 0x1p-50; // m, see the header
 } // namespace
@@ -143,7 +143,11 @@ double FixCDEMMove::compute_vector(int n) {
 
 void FixCDEMMove::write_restart(FILE *fp) {
   if (comm->me == 0)
-    Shearbox::write_state(fp, VERSION, clock);
+    Shearbox::write_state(fp, VERSION, Saved{clock, booked});
 }
 
-void FixCDEMMove::restart(char *buf) { clock = Shearbox::read_state<Clock>(lmp, style, VERSION, buf); }
+void FixCDEMMove::restart(char *buf) {
+  const auto saved = Shearbox::read_state<Saved>(lmp, style, VERSION, buf);
+  clock = saved.clock;
+  booked = saved.booked;
+}

@@ -54,6 +54,11 @@ private:
     double start, steps, dt;
   };
 
+  struct Saved {
+    Clock clock;
+    Booked booked;
+  };
+
   Motion motion() const;
   void apply();
   Vector along(double amount) const;

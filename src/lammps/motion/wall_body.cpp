@@ -12,6 +12,7 @@
 #include "fmt/format.h"
 #include "group.h"
 #include "modify.h"
+#include "update.h"
 
 #include <algorithm>
 #include <cmath>
@@ -125,9 +126,14 @@ void WallBody::set_motion(Vector velocity, Vector acceleration) {
 
 void WallBody::book_work(Vector force) {
   if (audit && comm->me == 0)
-    audit->books.walls -= 0.5 * ((force_before.x + force.x) * displacement_of_step.x +
-                                 (force_before.y + force.y) * displacement_of_step.y);
-  force_before = force;
+    audit->books.walls -= 0.5 * ((booked.force.x + force.x) * displacement_of_step.x +
+                                 (booked.force.y + force.y) * displacement_of_step.y);
+  booked = {force, double(update->ntimestep)};
+}
+
+void WallBody::book_start(Vector force) {
+  if (booked.step != update->ntimestep)
+    booked = {force, double(update->ntimestep)};
 }
 
 void WallBody::shift(Vector displacement, Vector velocity) {

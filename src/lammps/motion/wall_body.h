@@ -61,7 +61,15 @@ protected:
   // Takes the force on the body (N), at the end of a step or at setup, and books the work it did in the step if there
   // is an audit.
   void book_work(Vector force);
-  void book_start(Vector force) { force_before = force; }
+  void book_start(Vector force);
+
+  // The force that was booked last, for restart files: at setup the dashpots take other velocities than at the end of
+  // a step, so the work of a continued run would begin with another force.
+  struct Booked {
+    Vector force{0, 0};
+    double step = -1; // at whose end it was taken; -1: never
+  };
+  Booked booked;
 
 private:
   template <class Term> double sum(Term term) const;
@@ -70,7 +78,7 @@ private:
   FixCDEMGrains *grains = nullptr;
   FixCDEMAudit *audit = nullptr;
   GrainRows *rows = nullptr; // null: the atoms themselves
-  Vector displacement_of_step{0, 0}, velocity_of_step{0, 0}, acceleration_now{0, 0}, force_before{0, 0};
+  Vector displacement_of_step{0, 0}, velocity_of_step{0, 0}, acceleration_now{0, 0};
   std::vector<int> discs; // own atoms of the group, valid between rebuilds of the neighbour list
 };
 

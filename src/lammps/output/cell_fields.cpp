@@ -8,7 +8,6 @@
 
 #include "atom.h"
 #include "domain.h"
-#include "error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,7 +75,9 @@ void CellFields::init() {
   limits.init();
 }
 
-bool CellFields::counts(int i) const { return i < atom->nlocal && (atom->mask[i] & group_bit); }
+bool CellFields::counts(int i) const {
+  return i < atom->nlocal && (atom->mask[i] & group_bit) && !pair->contacts.rows.shape_of_type(atom->type[i]).is_line();
+}
 
 std::vector<std::vector<double>> CellFields::rows(int nx, int ny) const {
   const std::vector<Contact> contacts = pair->report.contacts();

@@ -29,7 +29,7 @@
 // line from its centre to the contact counts, with the share of its length that lies in the rectangle. So with the
 // group of the grains, walls are the border of the stress; stress times area, summed over the parts of a rectangle, is
 // that of the whole; and of grains at rest it is the sum of x f over the forces f on the walls at x. Formulas and
-// sources: core/field_sums.h.
+// sources: core/field_sums.h. Pieces of smooth walls (template line of fix cdem/shape) never count.
 //
 // From these: anisotropy of contacts a_c = 2 sqrt((fabric_xx - fabric_yy)^2 + 4 fabric_xy^2) (Rothenburg and Bathurst
 // 1989), and in the same way that of the force tensors, which includes a_c; inertial number I = |gradient_xy +

@@ -103,9 +103,11 @@ void ComputeCDEMEnergy::open_books() {
   audit->open = true;
 }
 
+void ComputeCDEMEnergy::book_losses() { pair->contacts.book_losses(); }
+
 void ComputeCDEMEnergy::keep_books() {
   open_books();
-  pair->contacts.book_losses();
+  book_losses();
   const State now = state();
   const auto [friction, dashpots, drag, walls] = audit->all();
   energy[TANGENTIAL] = now.tangential;

@@ -53,6 +53,7 @@ public:
   void compute_vector() override;
 
   void open_books() override;
+  void book_losses() override;
 
 private:
   enum Part { TRANSLATION, ROTATION, SPRINGS, NPARTS };

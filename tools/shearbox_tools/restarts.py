@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""LAMMPS's restart files: what tells from outside that one is whole, and of which step it is.
+
+The format is that of LAMMPS's write_restart.cpp: a mark, byte order and revision; then entries, each a number that says
+what it is and its value; at the very end the mark again. The step is the entry after the names of version and units.
+"""
+
+import os
+import struct
+from pathlib import Path
+
+MARK = b"LammpS RestartT\0"
+_START = struct.Struct("=16sii")  # mark, byte order, revision
+_NUMBER = struct.Struct("=i")
+_STEP = struct.Struct("=q")
+_VERSION, _UNITS, _NTIMESTEP = 0, 4, 5  # entries, as lmprestart.h numbers them; texts have their length in front
+_HEAD = 4096  # bytes, more than the entries up to the step
+
+
+def step_of(path: Path) -> int | None:
+    """The step of a restart file; None if it is not there, or not whole."""
+    try:
+        with path.open("rb") as stream:
+            head = stream.read(_HEAD)
+            stream.seek(-len(MARK), os.SEEK_END)
+            tail = stream.read()
+        return _step(head) if head.startswith(MARK) and tail == MARK else None
+    except (OSError, struct.error):
+        return None
+
+
+def _step(head: bytes) -> int:
+    at = _START.size
+    while True:
+        (entry,) = _NUMBER.unpack_from(head, at)
+        at += _NUMBER.size
+        if entry == _NTIMESTEP:
+            return int(_STEP.unpack_from(head, at)[0])
+        (value,) = _NUMBER.unpack_from(head, at)
+        at += _NUMBER.size + (max(0, value) if entry in (_VERSION, _UNITS) else 0)

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Checksums of files that are whole, so that damage is seen before anyone reads them.
+
+They are in SHA256SUMS beside the files, where `sha256sum -c SHA256SUMS` checks them too. A file is sealed while nobody
+writes to it; before an engine writes to it again the seal is taken off.
+"""
+
+import hashlib
+import re
+from collections.abc import Iterable
+from enum import Enum
+from functools import lru_cache
+from pathlib import Path
+
+from .errors import ShearboxError
+from .files import SUMS, sync, write_text
+
+_LINE = re.compile(r"^([0-9a-f]{64})  (\S+)$", re.MULTILINE)
+
+
+class Seal(Enum):
+    """What is known of a file."""
+
+    INTACT = "as it was sealed"
+    ALTERED = "not as it was sealed"
+    MISSING = "not there"
+    UNKNOWN = "never sealed"
+
+
+def seal(folder: Path, names: Iterable[str]) -> None:
+    """Seal those of the files that are there, once they are on the disk; forget what is not there any more."""
+    there = [name for name in names if (folder / name).is_file()]
+    for name in there:
+        try:
+            sync(folder / name)
+        except OSError as error:
+            raise ShearboxError(f"{folder / name}: {error.strerror}") from error
+    known = {name: digest for name, digest in _read(folder).items() if (folder / name).exists()}
+    _write(folder, known | {name: _digest_of(folder / name) for name in there})
+
+
+def unseal(folder: Path, names: Iterable[str]) -> None:
+    """Forget what is known of the files."""
+    _write(folder, {name: digest for name, digest in _read(folder).items() if name not in set(names)})
+
+
+def look_at(path: Path) -> Seal:
+    """Compare a file with its seal."""
+    if not path.is_file():
+        return Seal.MISSING
+    sealed = _read(path.parent).get(path.name)
+    if sealed is None:
+        return Seal.UNKNOWN
+    return Seal.INTACT if sealed == _digest_of(path) else Seal.ALTERED
+
+
+def refuse_altered(path: Path) -> None:
+    """Raise ShearboxError for a file that is not as it was sealed."""
+    if look_at(path) is Seal.ALTERED:
+        raise ShearboxError(
+            f"{path} has changed since it was written ({SUMS} beside it): "
+            "'shearbox run' with the options of before makes it anew"
+        )
+
+
+def _read(folder: Path) -> dict[str, str]:
+    """Digests by name; a damaged list is an empty one, or has wrong digests."""
+    try:
+        text = (folder / SUMS).read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return {}
+    return {name: digest for digest, name in _LINE.findall(text)}
+
+
+def _write(folder: Path, digests: dict[str, str]) -> None:
+    if digests != _read(folder):
+        write_text(folder / SUMS, "".join(f"{digest}  {name}\n" for name, digest in digests.items()))
+
+
+def _digest_of(path: Path) -> str:
+    try:
+        status = path.stat()
+        return _digest(path, status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns)
+    except OSError as error:
+        raise ShearboxError(f"{path}: {error.strerror}") from error
+
+
+@lru_cache(maxsize=1000)
+def _digest(path: Path, *_: int) -> str:
+    """Of the file in that state: dumps are large, and asked for several times."""
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
