@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from shearbox_tools.errors import ShearboxError
-from shearbox_tools.models import INPUT, PARAMETERS, all_models, find_model, read_comments, read_model, read_variables
+from shearbox_tools.models import INPUT, all_models, find_model, read_model, read_variables
+from shearbox_tools.parameters import parameters
 from shearbox_tools.presets import LAWS
 from shearbox_tools.table import print_models
 
@@ -50,14 +51,14 @@ def own(folder: Path, shape: str) -> Path:
     [
         ("triple", 3, "triple"),
         ('"discs 2 0 0 1 1 0 1"', 2, "discs 2 0 0 1 1 0 1"),
-        ('"discs 2  0 0 1 &\n  1 0 1"', 2, "discs 2  0 0 1    1 0 1"),
+        ('"discs 2  0 0 1 &\n  1 0 1"', 2, "discs 2 0 0 1 1 0 1"),
         ('"file grain.txt"', 2, "discs 2 0 0 1 1 0 .5"),
     ],
 )
 def test_a_model_of_ones_own(tmp_path, shape, discs, template):
     """A template in a file is recorded as the discs that it had."""
     (tmp_path / "grain.txt").write_text("# x y r\n0 0 1\n\n1 0 .5 # the small one\n", encoding="utf-8")
-    model = find_model(str(own(tmp_path, shape)), [])
+    model = find_model(str(own(tmp_path, shape)))
     assert (model.name, model.discs, model.variables["shape"]) == ("own", discs, template)
 
 
@@ -91,7 +92,10 @@ def test_variables_without_their_comments():
     "change, message",
     [
         (lambda text: text.replace("ngrains", "grains"), "no variable ngrains"),
-        (lambda text: text.replace("0.008", "wide"), "could not convert string to float: 'wide'"),
+        (
+            lambda text: text.replace("0.008", "wide"),
+            "dmax: 'wide' is not a number; units are those of parameters.in: SI",
+        ),
         (lambda text: "", "no variable width, half_height"),
     ],
 )
@@ -106,4 +110,4 @@ def test_a_damaged_model_is_named(tmp_path, change, message):
 
 
 def test_the_laws_are_those_that_the_decks_name():
-    assert read_comments(PARAMETERS)["law"].endswith(f": {' or '.join(LAWS)}")
+    assert parameters()["law"].words == LAWS

@@ -100,6 +100,7 @@ def _common(request: Request, place: Path) -> dict[str, str]:
         "law": request.law,
         "dt": request.dt,
         "stiffness": f"{request.stiffness:g}",
+        **request.settings,
     }
 
 

@@ -3,53 +3,79 @@
 
 import argparse
 import os
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from rich.console import Console
 
 from .campaign import Campaign, locked
+from .checks import check
 from .display import make_display
 from .engine import PROGRAM, Engine, free_bytes
 from .errors import InputError, ShearboxError
-from .models import INPUT, PARAMETERS, all_models, find_model, read_variables
+from .forecast import Forecast
+from .models import INPUT, PARAMETERS, find_model
+from .parameters import canonical, of_model, read_settings
 from .phases import DECKS, deck, disk_need, shearing
-from .request import Request, check, open_folder
+from .request import OWN_OPTION, Request, open_folder, recorded
 
 SPARE_BYTES = 100_000_000
-GIVEN = {"model", "seed", "law", "dt", "stiffness", "sigma", "speed", "travel"}  # they come from the command line
+DEFAULT_STRESSES = (100.0, 200.0, 300.0, 400.0)  # kPa
 
 
 def run(options: argparse.Namespace) -> None:
     """Carry out the command line; raises ShearboxError when something is wrong or has failed."""
-    request = Request(
-        model=find_model(options.model, all_models()),
-        stresses=tuple(sorted(options.stress)),
-        speed=options.speed,
-        travel=options.travel,
-        seed=options.seed,
-        law=options.law,
-        dt=options.dt,
-        stiffness=options.stiffness,
-    )
-    engine = Engine((options.engine or PROGRAM).resolve(), options.ranks)
+    folder, request = _asked(vars(options))
+    engine = Engine(getattr(options, "engine", PROGRAM).resolve(), options.ranks)
     console = Console()
     check(request)
     _check_machine(min(options.jobs, len(request.stresses)), engine, console)
-    parameters = {k: v for k, v in read_variables(PARAMETERS).items() if k not in GIVEN}
-    folder: Path = options.out
+    forecast = Forecast(folder, request, options.jobs)
+    if options.dry_run:
+        _say(console, f"{forecast.phases}\nin all {forecast.total}, into {folder}")
+        return
     _check_disk(folder, request)
-    open_folder(folder, request, parameters)
+    open_folder(folder, request)
+    _say(console, f"left: {forecast.total}")
     from .report import report  # with its libraries a second of loading, which a refusal need not wait for
 
     with locked(folder) as lock:
         failures = _carry_out(folder, request, engine, options.jobs, console, lock)
         page = report(folder) if any(_sheared(folder, request)) else None
     if page:
-        console.print(f"report: {page}", markup=False, highlight=False, soft_wrap=True)
+        _say(console, f"report: {page}")
     if failures:
         raise ShearboxError(
             "\n".join(failures) + "\nThe other results are kept; the same command goes on where this one stopped."
         )
+
+
+def _asked(given: dict[str, Any]) -> tuple[Path, Request]:
+    """The folder, and what is to be in it: as given, else as recorded there if that is the model, else by default."""
+    settings = read_settings(given.get("set", []), OWN_OPTION)
+    folder = Path(given["model"])
+    if folder.is_dir():
+        request = recorded(folder)
+        if given.get("out", folder).resolve() != folder.resolve():
+            raise InputError(f"--out {given['out']}: {folder} is the folder of a run, which goes on there")
+        settings = request.settings | settings
+        request = replace(request, model=find_model(str(request.model.path), of_model(settings)), settings=settings)
+    elif "out" in given:
+        folder = given["out"]
+        request = Request(find_model(given["model"], of_model(settings)), DEFAULT_STRESSES, settings=settings)
+    else:
+        raise InputError(f"--out is needed, or the folder of an earlier run; {given['model']} is none")
+    changes = {name: given[name] for name in ("speed", "travel", "seed", "law", "stiffness") if name in given}
+    if "stress" in given:
+        changes["stresses"] = tuple(sorted(given["stress"]))
+    if "dt" in given:
+        changes["dt"] = canonical(given["dt"].strip())
+    return folder, replace(request, **changes)
+
+
+def _say(console: Console, text: str) -> None:
+    console.print(text, markup=False, highlight=False, soft_wrap=True)
 
 
 def _carry_out(folder: Path, request: Request, engine: Engine, jobs: int, console: Console, lock: int) -> list[str]:
