@@ -9,7 +9,7 @@ import pytest
 from test_run import MODEL, SHEARBOX, command, shearbox
 
 from shearbox_tools.checks import check
-from shearbox_tools.errors import InputError
+from shearbox_tools.errors import InputError, ShearboxError
 from shearbox_tools.models import INPUT, PARAMETERS, all_models, find_model, read_variables
 from shearbox_tools.parameters import parameters, read_settings
 from shearbox_tools.phases import packing
@@ -172,3 +172,22 @@ def test_a_bad_file_among_the_models_costs_no_other(tmp_path, monkeypatch, capsy
     assert "bad.in: 'variable NAME index VALUE' is expected, not 'variable width index 10 cm'" in said.replace("\n", "")
     monkeypatch.setattr(models.model_files, "__defaults__", (tmp_path,))
     assert find_model(MODEL).ngrains == 350
+
+
+@pytest.mark.parametrize(
+    "old, new, message",
+    [
+        ("index 27 ", "index 95 ", "parameters.in: phi 95: 0 to 89 is expected: friction angle (degrees)"),
+        ("index 0.25 ", "index wide ", "parameters.in: flanges wide: 0.01 to 2 is expected"),
+        ("variable kn ", "variable kN ", "parameters.in: there is no variable kn with what it may be in [ ]"),
+        ("[1e3 to 1e12]", "[1e3 to many]", "parameters.in: kn 1.0e8: 1e3 to many is expected"),
+    ],
+)
+def test_what_is_wrong_in_the_deck_is_named(tmp_path, monkeypatch, old, new, message):
+    path = tmp_path / "parameters.in"
+    path.write_text(PARAMETERS.read_text(encoding="utf-8").replace(old, new), encoding="utf-8")
+    monkeypatch.setattr("shearbox_tools.checks.PARAMETERS", path)
+    monkeypatch.setattr("shearbox_tools.checks.parameters", lambda: parameters(path))
+    with pytest.raises(ShearboxError) as error:
+        check(Request(find_model(MODEL), (100.0,)))
+    assert message in str(error.value)

@@ -22,6 +22,7 @@ from .repair import repair
 from .request import Request
 
 POLL_SECONDS = 0.2
+MOST_SECONDS = 1e9  # that a phase may have taken
 
 
 @dataclass
@@ -136,8 +137,10 @@ def read_timings(folder: Path) -> dict[str, float]:
     """Seconds per phase, summed over all attempts; a damaged record costs the timings only."""
     try:
         timings = json.loads((folder / TIMINGS).read_text(encoding="utf-8"))
-        return {str(label): float(seconds) for label, seconds in timings.items()}
-    except (OSError, ValueError, AttributeError, TypeError):
+        return {
+            label: float(s) for label, s in timings.items() if isinstance(s, (int, float)) and 0 <= s < MOST_SECONDS
+        }
+    except (OSError, ValueError, AttributeError, RecursionError):
         return {}
 
 

@@ -16,17 +16,33 @@ LOWEST, HIGHEST = 1.2, 2.4
 
 def check(request: Request) -> None:
     """Refuse values that cannot be meant; all of them are named at once."""
-    problems = _model_problems(request.model)
-    problems += [*_stress_problems(request.stresses), *(_shear_problems(request) if not problems else [])]
-    known = parameters()
-    for name, option in OWN_OPTION.items():
-        problem = known[name].problem(getattr(request, name))
-        problems += [problem.replace(name, option, 1)] if problem else []
-    problems += [f"--set {p}" for name, value in request.settings.items() if (p := known[name].problem(value))]
-    for name in ("speed", "travel", "stiffness"):
-        problems += _digit_problems(f"--{name}", getattr(request, name))
+    of_decks = [*_deck_problems(request.settings), *_model_problems(request.model)]
+    problems = [*of_decks, *_stress_problems(request.stresses), *_option_problems(request)]
+    if not of_decks:
+        problems += _shear_problems(request)
     if problems:
         raise InputError("\n".join(problems))
+
+
+def _deck_problems(settings: dict[str, str]) -> list[str]:
+    """Values of parameters.in, or in their place of the command line, that are out of their range."""
+    known = parameters()
+    values = {
+        name: (str(PARAMETERS), parameter.value) for name, parameter in known.items() if parameter.value is not None
+    }
+    values |= {name: ("--set", value) for name, value in settings.items()}
+    return [f"{where}: {problem}" for name, (where, value) in values.items() if (problem := known[name].problem(value))]
+
+
+def _option_problems(request: Request) -> list[str]:
+    known = parameters()
+    problems = []
+    for name, option in OWN_OPTION.items():
+        if problem := known[name].problem(getattr(request, name)):
+            problems.append(problem.replace(name, option, 1))
+    for name in ("speed", "travel", "stiffness"):
+        problems += _digit_problems(f"--{name}", getattr(request, name))
+    return problems
 
 
 def _model_problems(model: Model) -> list[str]:

@@ -10,6 +10,7 @@ import numpy as np
 
 from .errors import ShearboxError
 from .files import COLUMNS
+from .ranges import require_ranges
 from .readers import Columns, parse_numbers, require, short
 
 GRAINS = ("id", "x", "y", "radius", "angle", "wall", "lower", "lid")  # columns that are needed
@@ -47,7 +48,9 @@ class Dump:
         self.path = path
         self.columns = columns
         self._names_file = path.with_suffix(COLUMNS)
-        self._given = self._names_file.read_text(encoding="utf-8").split() if self._names_file.exists() else []
+        self._given = (
+            self._names_file.read_text(encoding="utf-8", errors="replace").split() if self._names_file.exists() else []
+        )
         self._blocks = self._read_index()
 
     @property
@@ -71,7 +74,9 @@ class Dump:
         order = self._order(head)
         body = [line.decode(errors="replace") for line in lines[head.lines : head.lines + head.count]]
         table = self._table(body, head, start)
-        return {name: table[:, k] for name, k in zip(self.columns, order)}
+        columns = {name: table[:, k] for name, k in zip(self.columns, order)}
+        require_ranges(columns, self.path)
+        return columns
 
     def _read_index(self) -> dict[int, tuple[int, int]]:
         """Bytes from and to of the last whole frame of each step."""
@@ -104,7 +109,7 @@ class Dump:
     def _head(self, lines: list[bytes], offset: int) -> _Head:
         """Step, number of rows and names of the columns; a head that is cut off asks for more rows than there are."""
         last = next((i for i, line in enumerate(lines) if line.startswith(_LAST_OF_HEAD)), None)
-        if last is None:
+        if last is None or last < 4:
             return _Head(-1, _ENDLESS, [], 0)
         return _Head(
             self._integer(lines, 1, offset),
@@ -114,11 +119,11 @@ class Dump:
         )
 
     def _integer(self, lines: list[bytes], index: int, offset: int) -> int:
-        try:
-            return int(lines[index])
-        except ValueError as error:
+        value = _whole(lines[index])
+        if value is None:
             line, text = self._line_number(offset) + index, lines[index].decode(errors="replace")
-            raise ShearboxError(f"{self.path}, line {line}: a whole number is expected, not {short(text)}") from error
+            raise ShearboxError(f"{self.path}, line {line}: a whole number is expected, not {short(text)}")
+        return value
 
     def _order(self, head: _Head) -> list[int]:
         names = [self._name(word) for word in head.names]
@@ -143,7 +148,7 @@ class Dump:
             return np.empty((0, len(head.names)))
         try:
             table = np.loadtxt(body, ndmin=2)
-            if table.shape[1] == len(head.names) and np.all(np.isfinite(table)):
+            if table.shape == (len(body), len(head.names)) and np.all(np.isfinite(table)):
                 return table
         except ValueError:
             pass
@@ -164,11 +169,17 @@ def last_whole_byte(path: Path) -> int:
         return 0
     lines = data[starts[-1] :].splitlines(keepends=True)
     last_of_head = next((i for i, line in enumerate(lines) if line.startswith(_LAST_OF_HEAD)), None)
-    if last_of_head is None:
+    count = _whole(lines[3]) if last_of_head is not None and last_of_head > 3 else None
+    if last_of_head is None or count is None:
         return starts[-1]
-    frame = lines[: last_of_head + 1 + int(lines[3])]
-    whole = len(frame) == last_of_head + 1 + int(lines[3]) and frame[-1].endswith(b"\n")
+    frame = lines[: last_of_head + 1 + count]
+    whole = len(frame) == last_of_head + 1 + count and frame[-1].endswith(b"\n")
     return starts[-1] + sum(map(len, frame)) if whole else starts[-1]
+
+
+def _whole(word: bytes) -> int | None:
+    """The whole number of a line, or None."""
+    return int(word) if re.fullmatch(rb"\s*[0-9]{1,18}\s*", word) else None
 
 
 def _frame_starts(data: bytes | mmap.mmap) -> list[int]:

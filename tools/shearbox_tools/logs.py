@@ -5,7 +5,10 @@ import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from .numerals import number
+
 _LOOP = re.compile(r"^Loop time of (\S+) on (\d+) procs for (\d+) steps", re.MULTILINE)
+_MOST = 1e18  # seconds or steps: more is no log of ours
 _SHARE = re.compile(r"^(Pair|Neigh|Comm|Output|Modify|Other)\s*\|[^|]*\|([^|]*)\|", re.MULTILINE)
 
 
@@ -36,11 +39,10 @@ def read_log(path: Path) -> Log:
         return Log()
     log = Log(_first(r"^LAMMPS \(([^)]*)\)", text), _first(r"^Shearbox (.*)$", text))
     for seconds, _, steps in _LOOP.findall(text):
-        log.seconds += float(seconds)
-        log.steps += int(steps)
+        log.seconds += _amount(seconds)
+        log.steps += int(_amount(steps))
     for part, seconds in _SHARE.findall(text):
-        if seconds.strip():  # "Other" has its mean in the next column
-            log.parts[part] = log.parts.get(part, 0.0) + float(seconds)
+        log.parts[part] = log.parts.get(part, 0.0) + _amount(seconds.strip())
     log.parts["Other"] = max(0.0, log.seconds - sum(log.parts.values()))
     return log
 
@@ -55,6 +57,15 @@ def read_logs(path: Path) -> Log:
         for part, spent in log.parts.items():
             total.parts[part] = total.parts.get(part, 0.0) + spent
     return total
+
+
+def _amount(text: str) -> float:
+    """A number as the engine writes it; 0 for what is none, as the mean of "Other", which is in the next column."""
+    try:
+        value = number(text)
+    except ValueError:
+        return 0.0
+    return value if 0 <= value < _MOST else 0.0
 
 
 def _first(pattern: str, text: str) -> str | None:

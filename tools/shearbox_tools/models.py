@@ -102,7 +102,7 @@ def read_model(path: Path, settings: dict[str, str] | None = None) -> Model:
 def _model_variables(path: Path) -> dict[str, str]:
     """The variables of a model, which has nothing else: what LAMMPS would read otherwise than we do is refused."""
     variables: dict[str, str] = {}
-    for line in _lines(path):
+    for line in lines(path):
         if not line.split("#")[0].strip(" \t\r"):
             continue
         found = _VARIABLE.fullmatch(line)
@@ -155,10 +155,10 @@ def table_order(model: Model) -> tuple[bool, bool, float, float]:
 
 def definitions(path: Path) -> list[tuple[str, str, str, str]]:
     """Name, style, value and comment of the variables that are defined by a line of their own."""
-    return [(m[1], m[2], m[3], m[4] or "") for line in _lines(path) if (m := _VARIABLE.fullmatch(line))]
+    return [(m[1], m[2], m[3], m[4] or "") for line in lines(path) if (m := _VARIABLE.fullmatch(line))]
 
 
-def _lines(path: Path) -> list[str]:
+def lines(path: Path) -> list[str]:
     """Lines as LAMMPS takes them: & continues one."""
     try:
         text = path.read_text(encoding="utf-8", errors="replace")

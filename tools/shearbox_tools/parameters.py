@@ -6,11 +6,25 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from .errors import InputError
-from .models import PARAMETERS, RANGE, definitions
+from .errors import InputError, ShearboxError
+from .models import PARAMETERS, RANGE, definitions, lines
 from .numerals import number, numeral
 
-_OF_THE_MODEL = re.compile(r"^#   (\w+) +(.*\])$", re.MULTILINE)
+_OF_THE_MODEL = re.compile(r"^#   (\w+) +(.*\])$")
+_NEEDED = (
+    "seed",
+    "flanges",
+    "kn",
+    "ks",
+    "hn",
+    "hs",
+    "density",
+    "thickness",
+    "stiffness",
+    "law",
+    "dt",
+    "dt_max",
+)  # by us
 
 
 @dataclass(frozen=True)
@@ -44,8 +58,12 @@ class Parameter:
 def parameters(path: Path = PARAMETERS) -> dict[str, Parameter]:
     """All of them by name, those of the model last."""
     listed: list[tuple[str, str | None, str]] = [(name, value, said) for name, _, value, said in definitions(path)]
-    listed += [(name, None, comment) for name, comment in _OF_THE_MODEL.findall(path.read_text(encoding="utf-8"))]
-    return {name: _parameter(name, value, comment) for name, value, comment in listed if RANGE.search(comment)}
+    listed += [(name, None, said) for line in lines(path) for name, said in _OF_THE_MODEL.findall(line)]
+    known = {name: _parameter(name, value, said) for name, value, said in listed if RANGE.search(said)}
+    missing = [name for name in _NEEDED if name not in known]
+    if missing:
+        raise ShearboxError(f"{path}: there is no variable {', '.join(missing)} with what it may be in [ ]")
+    return known
 
 
 def _parameter(name: str, value: str | None, comment: str) -> Parameter:
@@ -53,9 +71,9 @@ def _parameter(name: str, value: str | None, comment: str) -> Parameter:
     assert found
     words, low, high = [], math.inf, -math.inf
     for choice in found[1].split(" or "):
-        if " to " in choice:
+        try:
             low, high = map(number, choice.split(" to "))
-        else:
+        except ValueError:
             words.append(choice)
     return Parameter(
         name, value, comment[: found.start()], found[1] + (found[2] or ""), tuple(words), low, high, bool(found[2])

@@ -15,7 +15,7 @@ from .files import CONSOLIDATED_TABLE, PACKED, PACKED_TABLE, SHEAR_DONE, SHEAR_T
 from .motion import full_speed
 from .peak import Peak
 from .polynomial import FEWEST_ROWS
-from .readers import read_row, read_shear
+from .readers import NEEDED_OF_SPECIMEN, read_row, read_shear
 from .request import read_record
 from .shear import Shear, analyse
 from .specimen import count_lost
@@ -140,7 +140,7 @@ def _optional(path: Path, problems: list[str]) -> dict[str, float] | None:
     if not path.exists():
         return None
     try:
-        return read_row(path)
+        return read_row(path, NEEDED_OF_SPECIMEN)
     except ShearboxError as error:
         problems.append(str(error))
         return None
