@@ -9,6 +9,8 @@ import json
 import math
 import os
 import shlex
+import tempfile
+from datetime import timedelta
 from pathlib import Path
 
 import numpy as np
@@ -54,7 +56,7 @@ def altered(draw: st.DrawFn, text: bytes) -> bytes:
 def fuzz(text: bytes):
     """Calls a test with alterations of a text."""
     return lambda test: settings(
-        max_examples=EXAMPLES, derandomize="FUZZ_EXAMPLES" not in os.environ, deadline=5000, database=None,
+        max_examples=EXAMPLES, derandomize="FUZZ_EXAMPLES" not in os.environ, deadline=timedelta(seconds=20), database=None,
         suppress_health_check=list(HealthCheck),
     )(given(data=altered(text))(test))  # fmt: skip
 
@@ -71,8 +73,6 @@ def _folder(tmp_path_factory) -> Path:
 
 def made(write) -> bytes:
     """The text of the file that `write` makes in a folder."""
-    import tempfile
-
     with tempfile.TemporaryDirectory() as name:
         return write(Path(name)).read_bytes()
 

@@ -159,7 +159,7 @@ def test_a_template_that_no_grain_has_is_refused(tmp_path, text, message):
         ("index 350", "index ３５０", "ngrains: '３５０' is not a number"),
         ("index 350", "index 350\nvariable ngrains index 400", "several variables ngrains"),  # LAMMPS: the first counts
         ("index 350", "index 35&\n0\0", "not text"),
-        ("variable width", "varable width", "'variable NAME index VALUE' is expected, not 'varable"),
+        ("variable width", "vari width", "'variable NAME index VALUE' is expected, not 'vari"),
     ],
 )
 def test_what_lammps_reads_otherwise_is_refused(tmp_path, old, new, message):

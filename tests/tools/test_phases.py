@@ -82,6 +82,7 @@ def test_displacement_of_the_last_whole_line(tmp_path: Path, text, reached):
     [
         ("models", "my results", "{tmp}/models"),
         ("my models", "my models/results", "../.."),
+        ("my\tmodels", "results", None),
         ("my models/own", "my models/results", "../../own"),
         ("my models", "results", None),
         ("my models/a b", "my models", None),

@@ -271,6 +271,33 @@ def test_a_frame_that_lacks_a_row_is_named(frames):
         Dump(path, GRAINS)
 
 
+def test_a_dump_without_a_whole_frame_is_named(frames):
+    path = frames / "grains.dump"
+    path.write_bytes(path.read_bytes()[:500])
+    for use in (lambda: Dump(path, GRAINS).steps, lambda: Dump(path, GRAINS).nearest(0)):
+        with pytest.raises(ShearboxError, match="grains.dump: there is no whole frame in it"):
+            use()
+
+
+@pytest.mark.parametrize(
+    "column, value",
+    [
+        ("step", "5000.5"),
+        ("trm", "-0.1"),
+        ("dangerous", "0.5"),
+        ("kinetic_J", "-1e-9"),
+        ("step", "-5"),
+        ("tau_kPa", "1_0"),
+    ],
+)
+def test_a_number_that_a_column_cannot_have(shear, column, value):
+    names, row = (line.split() for line in shear.read_text(encoding="utf-8").splitlines()[:2])
+    row[names.index(column) - 1] = value
+    edit(shear, 2, " ".join(row))
+    with pytest.raises(ShearboxError, match="shear.dat"):
+        read_shear(shear)
+
+
 def test_an_empty_dump_is_named(frames):
     (frames / "grains.dump").write_text("", encoding="utf-8")
     with pytest.raises(ShearboxError, match="grains.dump: the file is empty"):

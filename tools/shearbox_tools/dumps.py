@@ -55,14 +55,14 @@ class Dump:
 
     @property
     def steps(self) -> list[int]:
-        """Steps of the whole frames, ascending."""
+        """Steps of the whole frames, ascending; there is at least one."""
+        if not self._blocks:
+            raise ShearboxError(f"{self.path}: there is no whole frame in it")
         return sorted(self._blocks)
 
     def nearest(self, step: float) -> int:
         """The step that has a frame and is nearest to the given one."""
-        if not self._blocks:
-            raise ShearboxError(f"{self.path}: there is no whole frame in it")
-        return min(self._blocks, key=lambda s: abs(s - step))
+        return min(self.steps, key=lambda s: abs(s - step))
 
     def frame(self, step: int) -> Columns:
         """Columns of the frame of that step, each (rows,), in the units of the dump."""

@@ -52,20 +52,20 @@ def run(options: argparse.Namespace) -> None:
 
 
 def _asked(given: dict[str, Any]) -> tuple[Path, Request]:
-    """The folder, and what is to be in it: as given, else as recorded there if that is the model, else by default."""
+    """The folder, and what is to be in it: as given; what is not is as recorded there, or by default."""
     settings = read_settings(given.get("set", []), OWN_OPTION)
-    folder = Path(given["model"])
-    if folder.is_dir():
-        request = recorded(folder)
-        if given.get("out", folder).resolve() != folder.resolve():
-            raise InputError(f"--out {given['out']}: {folder} is the folder of a run, which goes on there")
-        settings = request.settings | settings
-        request = replace(request, model=find_model(str(request.model.path), of_model(settings)), settings=settings)
-    elif "out" in given:
+    if "out" in given:
         folder = given["out"]
         request = Request(find_model(given["model"], of_model(settings)), DEFAULT_STRESSES, settings=settings)
+    elif Path(given["model"]).is_dir():
+        folder = Path(given["model"])
+        request = recorded(folder)
+        settings = request.settings | settings
+        request = replace(request, model=find_model(str(request.model.path), of_model(settings)), settings=settings)
     else:
-        raise InputError(f"--out is needed, or the folder of an earlier run; {given['model']} is none")
+        raise InputError(
+            f"--out is needed, or the folder of an earlier run in place of MODEL; {given['model']} is none"
+        )
     changes = {name: given[name] for name in ("speed", "travel", "seed", "law", "stiffness") if name in given}
     if "stress" in given:
         changes["stresses"] = tuple(sorted(given["stress"]))
