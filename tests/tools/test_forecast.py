@@ -20,7 +20,9 @@ def request(name: str = "TypeA_10x5_4-8_1-circle_350") -> Request:
 
 
 def seconds(line: str) -> float:
-    amount, unit = re.search(r"about (\d+) (s|min)", line).groups()
+    found = re.search(r"about (\d+) (s|min)", line)
+    assert found
+    amount, unit = found.groups()
     return float(amount) * {"s": 1, "min": 60}[unit]
 
 
