@@ -99,8 +99,9 @@ def read_row(path: Path, needed: Sequence[str] = ()) -> dict[str, float]:
     if len(lines) < 2:
         raise ShearboxError(f"{path}: a header and a row of numbers are expected, there are {len(lines)} whole lines")
     header = lines[0].split()
+    values = parse_numbers(lines[1], len(header), path, 2)
     require(header, needed, path)
-    row = dict(zip(header, parse_numbers(lines[1], len(header), path, 2)))
+    row = dict(zip(header, values))
     require_ranges(row, path)
     return row
 
