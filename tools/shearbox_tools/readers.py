@@ -32,7 +32,7 @@ NEEDED_OF_SPECIMEN = (
     "unbalanced",
     "kinetic_J",
     "steps",
-)  # columns of packed.csv and consolidated.csv  # fmt: skip
+)  # columns of packed.csv and consolidated.csv
 
 Columns = dict[str, np.ndarray]
 
