@@ -18,7 +18,7 @@ from shearbox_tools.engine import Engine
 from shearbox_tools.errors import InputError, ShearboxError
 from shearbox_tools.files import DUMPS, write_text
 from shearbox_tools.lock import locked
-from shearbox_tools.models import all_models, find_model
+from shearbox_tools.models import find_model
 from shearbox_tools.phases import Phase, all_phases, left_to_do, rows_of_shear, steps_between_frames
 from shearbox_tools.readers import BED, read_shear
 from shearbox_tools.repair import make_ready
@@ -30,7 +30,7 @@ from shearbox_tools.seals import Seal, look_at, refuse_altered, seal
 ROWS = rows_of_shear()
 EVERY = synthetic.STEPS_PER_ROW
 FRAME = steps_between_frames(EVERY)
-MODEL = find_model("TypeA_10x5_4-8_1-circle_350", all_models())
+MODEL = find_model("TypeA_10x5_4-8_1-circle_350")
 REQUEST = Request(MODEL, (100.0,))
 PACK, CONSOLIDATE, SHEAR = "pack", "consolidate", "shear"
 
@@ -51,7 +51,7 @@ def write_rows(folder: Path, rows: int) -> None:
 @pytest.fixture(name="finished", scope="module")
 def _finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("finished")
-    open_folder(folder, REQUEST, {})
+    open_folder(folder, REQUEST)
     for phase in all_phases(folder, REQUEST):
         phase.folder.mkdir(exist_ok=True)
         if phase.name == SHEAR:
@@ -283,7 +283,7 @@ def test_a_record_that_is_lost_or_damaged_says_what_to_do(folder: Path) -> None:
             assert "run.json" in str(error) and "Put back a copy of it" in str(error)
     path.unlink()
     with pytest.raises(InputError, match="run.json is lost.* Put back a copy of it"):
-        check_folder(folder, REQUEST, {})
+        check_folder(folder, REQUEST)
 
 
 @pytest.mark.parametrize("lost", ["identity", "stresses", "model width", "parameters"])

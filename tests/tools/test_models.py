@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The models: their files against their names, and what happens to a damaged file."""
 
+import math
 import re
 from pathlib import Path
 
 import pytest
 
 from shearbox_tools.errors import ShearboxError
-from shearbox_tools.models import INPUT, PARAMETERS, all_models, find_model, read_comments, read_model, read_variables
+from shearbox_tools.grains import area_over_largest
+from shearbox_tools.models import INPUT, all_models, find_model, read_model, read_variables
+from shearbox_tools.parameters import parameters
 from shearbox_tools.presets import LAWS
 from shearbox_tools.table import print_models
 
@@ -50,14 +53,14 @@ def own(folder: Path, shape: str) -> Path:
     [
         ("triple", 3, "triple"),
         ('"discs 2 0 0 1 1 0 1"', 2, "discs 2 0 0 1 1 0 1"),
-        ('"discs 2  0 0 1 &\n  1 0 1"', 2, "discs 2  0 0 1    1 0 1"),
+        ('"discs 2  0 0 1 &\n  1 0 1"', 2, "discs 2 0 0 1 1 0 1"),
         ('"file grain.txt"', 2, "discs 2 0 0 1 1 0 .5"),
     ],
 )
 def test_a_model_of_ones_own(tmp_path, shape, discs, template):
     """A template in a file is recorded as the discs that it had."""
     (tmp_path / "grain.txt").write_text("# x y r\n0 0 1\n\n1 0 .5 # the small one\n", encoding="utf-8")
-    model = find_model(str(own(tmp_path, shape)), [])
+    model = find_model(str(own(tmp_path, shape)))
     assert (model.name, model.discs, model.variables["shape"]) == ("own", discs, template)
 
 
@@ -91,7 +94,10 @@ def test_variables_without_their_comments():
     "change, message",
     [
         (lambda text: text.replace("ngrains", "grains"), "no variable ngrains"),
-        (lambda text: text.replace("0.008", "wide"), "could not convert string to float: 'wide'"),
+        (
+            lambda text: text.replace("0.008", "wide"),
+            "dmax: 'wide' is not a number; units are those of parameters.in: SI",
+        ),
         (lambda text: "", "no variable width, half_height"),
     ],
 )
@@ -106,4 +112,59 @@ def test_a_damaged_model_is_named(tmp_path, change, message):
 
 
 def test_the_laws_are_those_that_the_decks_name():
-    assert read_comments(PARAMETERS)["law"].endswith(f": {' or '.join(LAWS)}")
+    assert parameters()["law"].words == LAWS
+
+
+@pytest.mark.parametrize(
+    "shape, area",
+    [
+        ("single", math.pi / 4),
+        ("triple", 3 * math.pi / 4),
+        ("discs 1 7 -3 50", math.pi / 4),
+        ("discs 2 0 0 1 1 0 1", (2 * math.pi - 2 * math.pi / 3 + math.sqrt(3) / 2) / 4),
+        ("discs 2 0 0 1e200 1.5e200 0 5e199", 1.25 * math.pi / 4),
+    ],
+)
+def test_area_of_a_grain(shape, area):
+    """Two discs of radius 1 whose centres are 1 apart share the lens 2 pi/3 - sqrt(3)/2."""
+    assert area_over_largest(shape) == pytest.approx(area, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("0 0 1\n3 0 1\n", "disc 2 is disconnected from disc 1"),
+        ("0 0 1\n0 .2 .5\n", "disc 2 is a duplicate of, or lies inside, disc 1"),
+        ("0 0 1\n1 0 0\n", "disc 2 has the radius 0"),
+        ("0 0 1\n1 0\n", "line 2: 'x y r' of a disc is expected, not '1 0'"),
+        ("0 0 1\n1 0 one\n", "'one' is not a number"),
+        ("0 0 1\n1 0 nan\n", "'nan' is not a number"),
+        ("# nothing\n", "it has 0 discs, 1 to 1000 are allowed"),
+    ],
+)
+def test_a_template_that_no_grain_has_is_refused(tmp_path, text, message):
+    (tmp_path / "grain.txt").write_text(text, encoding="utf-8")
+    with pytest.raises(ShearboxError) as error:
+        read_model(own(tmp_path, '"file grain.txt"'))
+    assert message in str(error.value) and "grain.txt" in str(error.value)
+
+
+@pytest.mark.parametrize(
+    "old, new, message",
+    [
+        ("index single", "index file grain.txt", "'variable NAME index VALUE' is expected"),  # LAMMPS: two values
+        ("index 350", "index 350.5", "ngrains: a whole number is expected"),
+        ("index 350", "equal 350", "'variable NAME index VALUE' is expected, not 'variable ngrains     equal 350"),
+        ("index 350", "index 3_50", "ngrains: '3_50' is not a number"),
+        ("index 350", "index ３５０", "ngrains: '３５０' is not a number"),
+        ("index 350", "index 350\nvariable ngrains index 400", "several variables ngrains"),  # LAMMPS: the first counts
+        ("index 350", "index 35&\n0\0", "not text"),
+        ("variable width", "vari width", "'variable NAME index VALUE' is expected, not 'vari"),
+    ],
+)
+def test_what_lammps_reads_otherwise_is_refused(tmp_path, old, new, message):
+    path = own(tmp_path, "single")
+    path.write_text(path.read_text(encoding="utf-8").replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(ShearboxError) as error:
+        read_model(path)
+    assert message in str(error.value) and str(path) in str(error.value)

@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """When a phase counts as done, and how far a shear phase has come."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 import synthetic
 
+from shearbox_tools.checks import check
 from shearbox_tools.errors import InputError
-from shearbox_tools.models import INPUT, all_models, find_model, read_model
+from shearbox_tools.models import INPUT, find_model, read_model
 from shearbox_tools.phases import disk_need, packing, shearing
 from shearbox_tools.readers import BED
-from shearbox_tools.request import Request, check
+from shearbox_tools.request import Request
 
 HEADER = "# step displacement_mm tau_kPa\n"
 TABLE = ",".join(BED) + "\n" + ",".join("1" * len(BED)) + "\n"
@@ -18,7 +20,7 @@ GOODBYE = "...\nTotal wall time: 0:00:01\n"
 
 
 def request(name: str = "TypeA_10x5_4-8_1-circle_350") -> Request:
-    return Request(find_model(name, all_models()), (100.0, 200.0), seed=7)
+    return Request(find_model(name), (100.0, 200.0), seed=7)
 
 
 @pytest.mark.parametrize(
@@ -86,6 +88,7 @@ def test_displacement_of_the_last_whole_line(tmp_path: Path, text, reached):
     [
         ("models", "my results", "{tmp}/models"),
         ("my models", "my models/results", "../.."),
+        ("my\tmodels", "results", None),
         ("my models/own", "my models/results", "../../own"),
         ("my models", "results", None),
         ("my models/a b", "my models", None),
@@ -105,14 +108,11 @@ def test_where_the_decks_find_a_model(tmp_path, model, results, seen):
         assert (variables["model"], variables["models"]) == ("sand", seen.format(tmp=tmp_path))
 
 
-def test_a_half_travels_as_far_as_its_flanges_are_long(tmp_path, monkeypatch):
-    """The decks say how long."""
-    parameters = tmp_path / "parameters.in"
-    parameters.write_text("variable flanges index 0.05 # over the width\n", encoding="utf-8")
+def test_a_half_travels_as_far_as_its_flanges_are_long():
+    """The decks say how long, or the command line."""
     check(request())
-    monkeypatch.setattr("shearbox_tools.request.PARAMETERS", parameters)
     with pytest.raises(InputError, match="--travel 8: 0.1 to 5 mm, 0.05 of the box's width"):
-        check(request())
+        check(replace(request(), settings={"flanges": "0.05"}))
 
 
 def test_disk_need_grows_with_what_is_left(tmp_path):

@@ -126,7 +126,11 @@ def test_no_file(tmp_path):
 
 def test_a_row_of_csv(tmp_path):
     path = tmp_path / "packed.csv"
-    row = {name: float(k) for k, name in enumerate(BED)} | {"sigma_kPa": 100.0}
+    row = (
+        {name: k + 1.0 for k, name in enumerate(BED)}
+        | {name: 0.8 for name in BED if "solid" in name}
+        | {"sigma_kPa": 100.0}
+    )
     path.write_text(", ".join(row) + "\n" + ", ".join(map(str, row.values())) + "\n", encoding="utf-8")
     assert read_row(path) == row
 
@@ -265,6 +269,33 @@ def test_a_frame_that_lacks_a_row_is_named(frames):
     path.write_text("".join(lines[:11] + lines[12:]), encoding="utf-8")
     with pytest.raises(ShearboxError, match=f"line 1: a frame of {rows - 1} rows that should have {rows}"):
         Dump(path, GRAINS)
+
+
+def test_a_dump_without_a_whole_frame_is_named(frames):
+    path = frames / "grains.dump"
+    path.write_bytes(path.read_bytes()[:500])
+    for use in (lambda: Dump(path, GRAINS).steps, lambda: Dump(path, GRAINS).nearest(0)):
+        with pytest.raises(ShearboxError, match="grains.dump: there is no whole frame in it"):
+            use()
+
+
+@pytest.mark.parametrize(
+    "column, value",
+    [
+        ("step", "5000.5"),
+        ("trm", "-0.1"),
+        ("dangerous", "0.5"),
+        ("kinetic_J", "-1e-9"),
+        ("step", "-5"),
+        ("tau_kPa", "1_0"),
+    ],
+)
+def test_a_number_that_a_column_cannot_have(shear, column, value):
+    names, row = (line.split() for line in shear.read_text(encoding="utf-8").splitlines()[:2])
+    row[names.index(column) - 1] = value
+    edit(shear, 2, " ".join(row))
+    with pytest.raises(ShearboxError, match="shear.dat"):
+        read_shear(shear)
 
 
 def test_an_empty_dump_is_named(frames):

@@ -12,7 +12,7 @@ import synthetic
 
 from shearbox_tools.cli import main
 from shearbox_tools.curves import _stress
-from shearbox_tools.models import INPUT, all_models, find_model, read_variables
+from shearbox_tools.models import INPUT, find_model, read_variables
 from shearbox_tools.report import minus, number, report
 from shearbox_tools.request import Request
 from shearbox_tools.results import read_results
@@ -26,7 +26,7 @@ STEPS = [0, 2000000, 4000000]
 
 @pytest.fixture(name="folder")
 def _folder(tmp_path: Path) -> Path:
-    model = find_model("TypeA_10x5_4-8_1-circle_350", all_models())
+    model = find_model("TypeA_10x5_4-8_1-circle_350")
     identity = Request(model, STRESSES).identity(read_variables(INPUT / "parameters.in"))
     (tmp_path / "run.json").write_text(json.dumps({"identity": identity, "stresses": STRESSES}), encoding="utf-8")
     (tmp_path / "packed").mkdir()

@@ -23,6 +23,7 @@ from .restarts import step_of
 from .seals import Seal, look_at, seal
 
 POLL_SECONDS = 0.1
+MOST_SECONDS = 1e9  # that a phase may have taken
 
 
 @dataclass
@@ -144,9 +145,10 @@ def read_timings(folder: Path) -> dict[str, float]:
     """Seconds per phase, summed over all attempts; a damaged record costs the timings only."""
     try:
         timings = json.loads((folder / TIMINGS).read_text(encoding="utf-8"))
-        known = {str(label): float(seconds) for label, seconds in timings.items()}
-        return known if all(math.isfinite(s) and s >= 0 for s in known.values()) else {}
-    except (OSError, ValueError, AttributeError, TypeError, OverflowError):
+        return {
+            label: float(s) for label, s in timings.items() if isinstance(s, (int, float)) and 0 <= s < MOST_SECONDS
+        }
+    except (OSError, ValueError, AttributeError, RecursionError):
         return {}
 
 

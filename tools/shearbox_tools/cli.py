@@ -3,6 +3,7 @@
 
 import argparse
 import importlib.util
+import io
 import os
 import shlex
 import signal
@@ -21,6 +22,9 @@ DEPENDENCIES = {"numpy": "python3-numpy", "scipy": "python3-scipy", "matplotlib"
 
 def main(arguments: list[str] | None = None) -> int:
     """Run one command; the exit status is 0, 1 (failed), 2 (bad input) or 128 + signal (stopped)."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")  # Latin-1 has no greek letters, and a stranger's path may have any
     options = make_parser().parse_args(arguments)
     signals = [signal.SIGTERM, signal.SIGHUP]
     for sign in signals:
@@ -51,6 +55,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"shearbox {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_models(commands)
+    _add_parameters(commands)
     _add_run(commands)
     _add_report(commands)
     return parser
@@ -61,37 +66,57 @@ def _add_models(commands: Commands) -> None:
     models.set_defaults(command=_models)
 
 
+def _add_parameters(commands: Commands) -> None:
+    parameters = commands.add_parser(
+        "parameters",
+        help="list what --set can set",
+        description="The variables of the decks that 'shearbox run --set NAME=VALUE' can set: value, range, meaning with unit.",
+    )
+    parameters.set_defaults(command=_parameters)
+
+
 def _add_run(commands: Commands) -> None:
     run = commands.add_parser(
         "run",
         help="run a model and report on it",
         description="Pack a model once, consolidate and shear it at each stress, and write the report. "
         "Run again with the same DIR, it goes on where it stopped; further stresses may be added later.",
-        formatter_class=argparse.ArgumentDefaultsHelpFormatter,
+        argument_default=argparse.SUPPRESS,  # so that 'run DIR' knows what was given
     )
     run.add_argument("model", metavar="MODEL",
-                     help="name of a model, as 'shearbox models' lists them, or the path of a model file, NAME.in")  # fmt: skip
-    run.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder of the results")
-    run.add_argument("--stress", metavar="KPA", type=float, nargs="+", default=[100, 200, 300, 400],
-                     help="normal stresses, kPa")  # fmt: skip
-    run.add_argument("--accuracy", choices=list(SPEEDS), default=REFERENCE,
-                     help="chooses --speed: " + ", ".join(f"{name} {v:g} mm/s" for name, v in SPEEDS.items()))  # fmt: skip
-    run.add_argument("--speed", metavar="V", type=float, default=argparse.SUPPRESS,
-                     help="shear speed, mm/s (default: that of --accuracy)")  # fmt: skip
-    run.add_argument("--travel", metavar="S", type=float, default=8.0, help="shear displacement at the end, mm")
-    run.add_argument("--seed", metavar="N", type=int, default=1, help="seed of the packing")
-    run.add_argument("--law", choices=LAWS, default=LAWS[0], help="contact law")
-    run.add_argument(
-        "--dt", metavar="DT", default="auto", help="time step, s; auto: from the stability limit of the contacts"
-    )
-    run.add_argument("--stiffness", metavar="F", type=float, default=1.0,
-                     help="factor on the stiffness of all contacts: less gives larger overlaps and time steps")  # fmt: skip
-    run.add_argument("--jobs", metavar="N", type=int, default=2, help="stresses run at the same time")
-    run.add_argument("--ranks", metavar="N", type=int, default=1, help="MPI ranks of each of them")
-    run.add_argument(
-        "--engine", metavar="FILE", type=Path, default=None, help="engine (default: lmp_cdem of this Shearbox)"
-    )
+                     help="name of a model, as 'shearbox models' lists them; or the path of a model file, NAME.in; or the "
+                     "folder of an earlier run, which goes on as it was asked for")  # fmt: skip
+    run.add_argument("--out", metavar="DIR", type=Path, help="folder of the results; needed unless MODEL is one")
+    run.add_argument("--stress", metavar="KPA", type=_stress, nargs="+", action="extend",
+                     help="normal stresses, kPa (default: 100 200 300 400)")  # fmt: skip
+    run.add_argument("--accuracy", choices=list(SPEEDS),
+                     help="chooses --speed: " + ", ".join(f"{name} {v:g} mm/s" for name, v in SPEEDS.items())
+                     + f" (default: {REFERENCE})")  # fmt: skip
+    run.add_argument("--speed", metavar="V", type=float, help="shear speed, mm/s (default: that of --accuracy)")
+    run.add_argument("--travel", metavar="S", type=float, help="shear displacement at the end, mm (default: 8)")
+    run.add_argument("--seed", metavar="N", type=int, help="seed of the packing (default: 1)")
+    run.add_argument("--law", choices=LAWS, help=f"contact law (default: {LAWS[0]})")
+    run.add_argument("--dt", metavar="DT",
+                     help="time step, s (default: auto, from the stability limit of the contacts)")  # fmt: skip
+    run.add_argument("--stiffness", metavar="F", type=float,
+                     help="factor on the stiffness of all contacts: less gives larger overlaps and time steps (default: 1)")  # fmt: skip
+    run.add_argument("--set", metavar="NAME=VALUE", nargs="+", action="extend",
+                     help="another value for a variable of the decks or of the model, such as phi=30; "
+                     "'shearbox parameters' lists them")  # fmt: skip
+    run.add_argument("--jobs", metavar="N", type=int, default=2, help="stresses run at the same time (default: 2)")
+    run.add_argument("--ranks", metavar="N", type=int, default=1, help="MPI ranks of each of them (default: 1)")
+    run.add_argument("--engine", metavar="FILE", type=Path, help="engine (default: lmp_cdem of this Shearbox)")
+    run.add_argument("--dry-run", action="store_true", default=False,
+                     help="only say what would run, about how long, and how much it would write")  # fmt: skip
     run.set_defaults(command=_run)
+
+
+def _stress(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        hint = " Between stresses are blanks: --stress 100 200" if "," in text else ""
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of kPa.{hint}") from None
 
 
 def _add_report(commands: Commands) -> None:
@@ -114,10 +139,17 @@ def _models(_: argparse.Namespace) -> None:
     print_models()
 
 
+def _parameters(_: argparse.Namespace) -> None:
+    from .table import print_parameters
+
+    print_parameters()
+
+
 def _run(options: argparse.Namespace) -> None:
     from .run import run
 
-    run(argparse.Namespace(**{"speed": SPEEDS[options.accuracy]} | vars(options)))
+    of_accuracy = {"speed": SPEEDS[options.accuracy]} if "accuracy" in options else {}
+    run(argparse.Namespace(**of_accuracy | vars(options)))
 
 
 def _report(options: argparse.Namespace) -> None:

@@ -11,6 +11,7 @@ import numpy as np
 
 from .errors import ShearboxError
 from .files import COLUMNS
+from .ranges import require_ranges
 from .readers import Columns, parse_numbers, require, short
 from .seals import refuse_altered
 
@@ -58,14 +59,14 @@ class Dump:
 
     @property
     def steps(self) -> list[int]:
-        """Steps of the whole frames, ascending."""
+        """Steps of the whole frames, ascending; there is at least one."""
+        if not self._blocks:
+            raise ShearboxError(f"{self.path}: there is no whole frame in it")
         return sorted(self._blocks)
 
     def nearest(self, step: float) -> int:
         """The step that has a frame and is nearest to the given one."""
-        if not self._blocks:
-            raise ShearboxError(f"{self.path}: there is no whole frame in it")
-        return min(self._blocks, key=lambda s: abs(s - step))
+        return min(self.steps, key=lambda s: abs(s - step))
 
     def cut(self, step: int) -> None:
         """Cut the file off after the frame of that step."""
@@ -81,7 +82,9 @@ class Dump:
         order = self._order(head)
         body = [line.decode(errors="replace") for line in lines[head.lines : head.lines + head.count]]
         table = self._table(body, head, start)
-        return {name: table[:, k] for name, k in zip(self.columns, order)}
+        columns = {name: table[:, k] for name, k in zip(self.columns, order)}
+        require_ranges(columns, self.path)
+        return columns
 
     def _read_index(self) -> dict[int, tuple[int, int]]:
         """Bytes from and to of the last whole frame of each step."""
@@ -114,7 +117,7 @@ class Dump:
     def _head(self, lines: list[bytes], offset: int) -> _Head:
         """Step, number of rows and names of the columns; a head that is cut off asks for more rows than there are."""
         last = next((i for i, line in enumerate(lines) if line.startswith(_LAST_OF_HEAD)), None)
-        if last is None:
+        if last is None or last < 4:
             return _Head(-1, _ENDLESS, [], 0)
         return _Head(
             self._integer(lines, 1, offset),
@@ -124,11 +127,11 @@ class Dump:
         )
 
     def _integer(self, lines: list[bytes], index: int, offset: int) -> int:
-        try:
-            return int(lines[index])
-        except ValueError as error:
+        value = _whole(lines[index])
+        if value is None:
             line, text = self._line_number(offset) + index, lines[index].decode(errors="replace")
-            raise ShearboxError(f"{self.path}, line {line}: a whole number is expected, not {short(text)}") from error
+            raise ShearboxError(f"{self.path}, line {line}: a whole number is expected, not {short(text)}")
+        return value
 
     def _order(self, head: _Head) -> list[int]:
         names = [self._name(word) for word in head.names]
@@ -153,7 +156,7 @@ class Dump:
             return np.empty((0, len(head.names)))
         try:
             table = np.loadtxt(body, ndmin=2)
-            if table.shape[1] == len(head.names) and np.all(np.isfinite(table)):
+            if table.shape == (len(body), len(head.names)) and np.all(np.isfinite(table)):
                 return table
         except ValueError:
             pass
@@ -164,6 +167,11 @@ class Dump:
         """Number of the line that begins at that byte."""
         with self.path.open("rb") as stream:
             return stream.read(offset).count(b"\n") + 1
+
+
+def _whole(word: bytes) -> int | None:
+    """The whole number of a line, or None."""
+    return int(word) if re.fullmatch(rb"\s*[0-9]{1,18}\s*", word) else None
 
 
 def _frame_starts(data: bytes | mmap.mmap) -> list[int]:

@@ -4,20 +4,28 @@
 import difflib
 import re
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 
+import numpy as np
+
 from .errors import InputError, ShearboxError
+from .grains import area_over_largest, discs_of, read_template
+from .numerals import number
 
 ROOT = Path(__file__).resolve().parents[2]
 INPUT = ROOT / "input"
 PARAMETERS = INPUT / "parameters.in"
 SUFFIX = ".in"
+SOLID_FRACTION = 0.82  # of a packing: of all models from 0.81 to 0.84, of equal discs 0.89
 
+_WORD = r"\"[^\"]*\"|'[^']*'|[^\s\"'#]+"
 _VARIABLE = re.compile(
-    r"^\s*variable\s+(\S+)\s+(?:equal|index|string|internal)\s+([^#\n]*?)\s*(?:#\s*(.*?)\s*)?$", re.MULTILINE
+    rf"[ \t\r]*variable[ \t]+(\w+)[ \t]+(equal|index|string|internal)[ \t]+({_WORD})[ \t\r]*(?:#[ \t]*(.*?)[ \t\r]*)?",
+    re.ASCII,
 )
+RANGE = re.compile(r"\s*\[(.+?)(, whole)?\]$")  # at the end of a comment: what a variable may be
 _NUMBERS = ("width", "half_height", "dmin", "dmax", "power", "ngrains")
-_DISCS = {"single": 1, "triple": 3}  # of templates that have a name
 
 
 @dataclass(frozen=True)
@@ -35,7 +43,7 @@ class Model:
     power: float
     ngrains: int
     shape: str
-    further: dict[str, str] = field(default_factory=dict)  # variables of the file that the tools do not need
+    further: dict[str, str] = field(default_factory=dict)  # variables that the tools do not need
 
     @property
     def name(self) -> str:
@@ -45,87 +53,117 @@ class Model:
     @property
     def discs(self) -> int:
         """Discs of a grain."""
-        kind, *rest = self.shape.split()
-        return int(rest[0]) if kind == "discs" else _DISCS[kind]
+        return len(discs_of(self.shape))
 
     @property
     def variables(self) -> dict[str, float | str]:
         """What defines the specimen, as recorded with a run."""
         return {name: getattr(self, name) for name in (*_NUMBERS, "shape")} | self.further
 
+    @cached_property
+    def half_heights(self) -> float:
+        """How high the packed grains will be, over the height of one half of the box; to some percent."""
+        shares = (np.arange(self.ngrains) + 0.5) / self.ngrains  # as src/core/fill.h draws diameters
+        p, ratio = self.power + 1, self.dmax / self.dmin
+        diameters = self.dmin * (ratio ** shares if abs(p) < 1e-12 else (1 + shares * (ratio**p - 1)) ** (1 / p))
+        area = area_over_largest(self.shape) * np.sum(diameters**2)
+        return float(area / (SOLID_FRACTION * self.width * self.half_height))
+
 
 def read_variables(path: Path) -> dict[str, str]:
     """Names and values of the variables that a deck defines, as text."""
-    return {name: value.strip("\"'") for name, value, _ in _definitions(path)}
+    return {name: value.strip("\"'") for name, _, value, _ in definitions(path)}
 
 
 def read_comments(path: Path) -> dict[str, str]:
-    """Names of the variables that a deck defines, and what it says about them."""
-    return {name: comment for name, _, comment in _definitions(path)}
+    """Names of the variables that a deck defines, and what it says about them, less what they may be."""
+    return {name: RANGE.sub("", comment) for name, _, _, comment in definitions(path)}
 
 
-def read_model(path: Path) -> Model:
-    """The model in a file."""
-    variables = read_variables(path)
+def read_model(path: Path, settings: dict[str, str] | None = None) -> Model:
+    """The model in a file, with other values for some of its variables."""
+    variables = _model_variables(path) | (settings or {})
     missing = [name for name in (*_NUMBERS, "shape") if name not in variables]
     if missing:
         raise ShearboxError(f"{path}: there is no variable {', '.join(missing)} in it")
-    try:
-        numbers = {name: float(variables.pop(name)) for name in _NUMBERS}
-    except ValueError as error:
-        raise ShearboxError(f"{path}: {error}") from error
-    ngrains = int(numbers.pop("ngrains"))
-    shape = _written_out(variables.pop("shape"), path)
+    numbers = {}
+    for name in _NUMBERS:
+        try:
+            numbers[name] = number(variables.pop(name))
+        except ValueError as error:
+            raise ShearboxError(f"{path}: {name}: {error}; units are those of {PARAMETERS.name}: SI") from error
+    ngrains = int(numbers["ngrains"])
+    if ngrains != numbers.pop("ngrains"):
+        raise ShearboxError(f"{path}: ngrains: a whole number is expected")
+    shape = read_template(variables.pop("shape"), path)
     return Model(path=path, ngrains=ngrains, shape=shape, further=variables, **numbers)
 
 
-def _written_out(shape: str, path: Path) -> str:
-    """The template of a model; one from a file beside the model's has its discs put in. The engine checks them."""
-    kind, *rest = shape.split() or ["nothing"]
-    if kind == "file" and len(rest) == 1:
-        rows = [line.split("#")[0].split() for line in _text(path.parent / rest[0]).splitlines()]
-        discs = [row for row in rows if row]
-        return " ".join(["discs", str(len(discs)), *(word for row in discs for word in row)])
-    if (kind in _DISCS and not rest) or (kind == "discs" and rest and rest[0].isdigit()):
-        return shape
-    raise ShearboxError(f"{path}: shape {shape}: single, triple, 'discs N x y r ...' or 'file NAME' is expected")
+def _model_variables(path: Path) -> dict[str, str]:
+    """The variables of a model, which has nothing else: what LAMMPS would read otherwise than we do is refused."""
+    variables: dict[str, str] = {}
+    for line in lines(path):
+        if not line.split("#")[0].strip(" \t\r"):
+            continue
+        found = _VARIABLE.fullmatch(line)
+        if not found or found[2] != "index":
+            raise ShearboxError(f"{path}: 'variable NAME index VALUE' is expected, not {line.strip()[:60]!r}")
+        if found[1] in variables:
+            raise ShearboxError(f"{path}: there are several variables {found[1]}")
+        variables[found[1]] = found[3].strip("\"'")
+    return variables
+
+
+def model_files(folder: Path = INPUT / "models") -> list[Path]:
+    """The files of all models in a folder."""
+    paths = sorted(folder.glob(f"*{SUFFIX}"))
+    if not paths:
+        raise ShearboxError(f"{folder}: there are no models (*.in) in it")
+    return paths
 
 
 def all_models(folder: Path = INPUT / "models") -> list[Model]:
     """All models, in the order of the paper's table: by discs per grain, then size, then box."""
-    paths = sorted(folder.glob(f"*{SUFFIX}"))
-    if not paths:
-        raise ShearboxError(f"{folder}: there are no models (*.in) in it")
-    return sorted((read_model(path) for path in paths), key=_table_order)
+    return sorted((read_model(path) for path in model_files(folder)), key=table_order)
 
 
-def find_model(name: str, models: list[Model]) -> Model:
-    """The model of that name, or in that file; or an error that suggests some."""
+def model_file(name: str) -> Path:
+    """The file of the model of that name, or of that path; or an error that suggests some."""
     if name.endswith(SUFFIX):
-        try:
-            return read_model(Path(name))
-        except ShearboxError as error:
-            raise InputError(str(error)) from error
-    for model in models:
-        if model.name == name:
-            return model
-    names = [model.name for model in models]
-    close = [n for n in names if name.lower() in n.lower()] or difflib.get_close_matches(name, names, 3, 0.5)
-    known = f"'shearbox models' lists them; a file of your own ends in {SUFFIX}"
-    hint = "Did you mean\n  " + "\n  ".join(close[:4]) if close else known
+        return Path(name)
+    known = {path.stem: path for path in model_files()}
+    if name in known:
+        return known[name]
+    close = [n for n in known if name.lower() in n.lower()] or difflib.get_close_matches(name, known, 3, 0.5)
+    advice = f"'shearbox models' lists them; a file of your own ends in {SUFFIX}"
+    hint = "Did you mean\n  " + "\n  ".join(close[:4]) if close else advice
     raise InputError(f"unknown model '{name}'. {hint}")
 
 
-def _table_order(model: Model) -> tuple[bool, bool, float, float]:
+def find_model(name: str, settings: dict[str, str] | None = None) -> Model:
+    """The model of that name, or in that file, with other values for some of its variables."""
+    try:
+        return read_model(model_file(name), settings)
+    except ShearboxError as error:
+        raise InputError(str(error)) from error
+
+
+def table_order(model: Model) -> tuple[bool, bool, float, float]:
+    """The key that sorts models as the paper's table does."""
     return (model.dmin == model.dmax, model.discs > 1, -model.dmax, model.width)
 
 
-def _definitions(path: Path) -> list[tuple[str, str, str]]:
-    return _VARIABLE.findall(re.sub(r"&[ \t]*\n", " ", _text(path)))  # & continues a line
+def definitions(path: Path) -> list[tuple[str, str, str, str]]:
+    """Name, style, value and comment of the variables that are defined by a line of their own."""
+    return [(m[1], m[2], m[3], m[4] or "") for line in lines(path) if (m := _VARIABLE.fullmatch(line))]
 
 
-def _text(path: Path) -> str:
+def lines(path: Path) -> list[str]:
+    """Lines as LAMMPS takes them: & continues one."""
     try:
-        return path.read_text(encoding="utf-8", errors="replace")
+        text = path.read_text(encoding="utf-8", errors="replace")
     except OSError as error:
         raise ShearboxError(f"{path}: {error.strerror}") from error
+    if "\0" in text:
+        raise ShearboxError(f"{path}: this is not text, there are null bytes in it")
+    return re.sub(r"&[ \t\r]*\n", "", text).split("\n")

@@ -176,14 +176,19 @@ def _common(request: Request, place: Path) -> dict[str, str]:
         "law": request.law,
         "dt": request.dt,
         "stiffness": f"{request.stiffness:g}",
+        **request.settings,
     }
 
 
 def _models_from(place: Path, model: Path) -> str:
     """The folder of a model as decks can include it from there: LAMMPS takes no blanks, but from there may be none."""
     folder = str(model.parent.resolve())
-    if " " in folder:
+    if _has_blank(folder):
         folder = os.path.relpath(folder, place.resolve())
-    if " " in folder + model.name:
+    if _has_blank(folder + model.name):
         raise InputError(f"model {model}: LAMMPS cannot include a file with a blank in its name or that of its folder")
     return folder
+
+
+def _has_blank(text: str) -> bool:
+    return any(letter.isspace() for letter in text)

@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from .errors import ShearboxError
+from .numerals import is_numeral, number
+from .ranges import require_ranges
 from .seals import refuse_altered
 
 NEEDED = (
@@ -57,8 +59,9 @@ def read_shear(path: Path) -> Columns:
     if not rows:
         raise ShearboxError(f"{path}: there are no rows of data in it")
     _refuse_gaps(sorted(rows), path)
-    table = np.array([rows[step] for step in sorted(rows)])
-    return dict(zip(names, table.T))
+    table = dict(zip(names, np.array([rows[step] for step in sorted(rows)]).T))
+    require_ranges(table, path)
+    return table
 
 
 def _refuse_gaps(steps: list[int], path: Path) -> None:
@@ -107,7 +110,7 @@ def last_value(path: Path, column: str) -> float | None:
             stream.seek(max(0, size - 1000))
             lines = stream.read().split(b"\n")[:-1]
         row = next(line.split() for line in reversed(lines) if not line.startswith(b"#"))
-        return float(row[names.index(column)])
+        return number(row[names.index(column)].decode())
     except (OSError, StopIteration, IndexError, ValueError):
         return None
 
@@ -119,24 +122,26 @@ def read_row(path: Path) -> dict[str, float]:
     if len(lines) < 2:
         raise ShearboxError(f"{path}: a header and a row of numbers are expected, there are {len(lines)} whole lines")
     header = lines[0].split()
-    row = dict(zip(header, parse_numbers(lines[1], len(header), path, 2)))
+    values = parse_numbers(lines[1], len(header), path, 2)
     require(header, BED, path)
+    row = dict(zip(header, values))
+    require_ranges(row, path)
     return row
 
 
-def parse_numbers(line: str, count: int, path: Path, number: int) -> list[float]:
-    """The `count` finite numbers of line `number` of the file."""
+def parse_numbers(line: str, count: int, path: Path, at: int) -> list[float]:
+    """The `count` finite numbers of line `at` of the file."""
     words = line.split()
     if len(words) != count:
-        raise ShearboxError(
-            f"{path}, line {number}: {count} values are expected, there are {len(words)}: {short(line)}"
-        )
+        raise ShearboxError(f"{path}, line {at}: {count} values are expected, there are {len(words)}: {short(line)}")
     try:
         values = [float(word) for word in words]
     except ValueError as error:
-        raise ShearboxError(f"{path}, line {number}: not a number in {short(line)}") from error
+        raise ShearboxError(f"{path}, line {at}: not a number in {short(line)}") from error
     if not np.all(np.isfinite(values)):
-        raise ShearboxError(f"{path}, line {number}: a value that is not finite in {short(line)}")
+        raise ShearboxError(f"{path}, line {at}: a value that is not finite in {short(line)}")
+    if not all(map(is_numeral, words)):
+        raise ShearboxError(f"{path}, line {at}: not a number in {short(line)}")
     return values
 
 

@@ -1,26 +1,56 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The table that `shearbox models` prints."""
+"""The tables that `shearbox models` and `shearbox parameters` print."""
 
 from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from .models import Model, all_models
+from .errors import ShearboxError
+from .models import Model, model_files, read_model, table_order
+from .parameters import parameters
+from .request import OWN_OPTION
 
 
 def print_models() -> None:
-    """One line a model; as wide as it needs to be when it does not go to a terminal."""
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    table.add_column("model", no_wrap=True)
-    for name in ("box, cm", "discs, mm", "discs/grain", "grains"):
-        table.add_column(name, justify="right", no_wrap=True)
-    table.add_column("size law", no_wrap=True)
-    for model in all_models():
+    """One line a model, and one for each file that is none."""
+    table = _table("model", "box, cm", "discs, mm", "discs/grain", "grains", "size law")
+    models, problems = [], []
+    for path in model_files():
+        try:
+            models.append(read_model(path))
+        except ShearboxError as error:
+            problems.append(str(error))
+    for model in sorted(models, key=table_order):
         table.add_row(*_row(model))
+    console = _console()
+    console.print(table)
+    for problem in problems:
+        console.print(f"not a model: {problem}", markup=False, highlight=False, soft_wrap=True)
+
+
+def print_parameters() -> None:
+    """One line a variable."""
+    table = _table("name", "value", "may be", "meaning, unit", right=())
+    for parameter in parameters().values():
+        option = f" ({OWN_OPTION[parameter.name]})" if parameter.name in OWN_OPTION else ""
+        value = "of the model" if parameter.value is None else parameter.value
+        table.add_row(parameter.name, value, parameter.allowed, parameter.meaning + option)
+    _console().print(table)
+
+
+def _table(*columns: str, right: tuple[str, ...] = ("box, cm", "discs, mm", "discs/grain", "grains")) -> Table:
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for name in columns:
+        table.add_column(name, justify="right" if name in right else "left", no_wrap=not name.startswith("meaning"))
+    return table
+
+
+def _console() -> Console:
+    """As wide as a table needs to be when it does not go to a terminal."""
     console = Console()
     if not console.is_terminal:
-        console.width = 120
-    console.print(table)
+        console.width = 200
+    return console
 
 
 def _row(model: Model) -> tuple[str, ...]:

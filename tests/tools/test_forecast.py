@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""How long a run will take, before it begins."""
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+import synthetic
+
+from shearbox_tools.forecast import Forecast, time_step
+from shearbox_tools.models import find_model
+from shearbox_tools.phases import SHEAR, Phase, packing, shearing
+from shearbox_tools.readers import BED
+from shearbox_tools.request import Request
+
+GOODBYE = "Total wall time: 0:00:01\n"
+
+
+def request(name: str = "TypeA_10x5_4-8_1-circle_350") -> Request:
+    return Request(find_model(name), (100.0, 200.0), speed=20.0)
+
+
+def seconds(line: str) -> float:
+    found = re.search(r"about (\d+) (s|min)", line)
+    assert found
+    amount, unit = found.groups()
+    return float(amount) * {"s": 1, "min": 60}[unit]
+
+
+def finish(phase: Phase) -> None:
+    """What a phase leaves behind, less its log."""
+    if phase.name == SHEAR:
+        synthetic.write_shear(phase.folder / phase.product, synthetic.curves(100, 8))
+    else:
+        synthetic.write_row(phase.folder / phase.product, **dict.fromkeys(BED, 1.0))
+    phase.seal()
+
+
+def test_time_step_without_damping_is_that_of_the_lattice():
+    """2 sqrt(m / (6 k_n + 3 k_s)), of which auto takes 0.9; and never more than dt_max."""
+    asked = replace(request(), settings={"hn": "0", "hs": "0", "dt_max": "1e-4"})
+    mass = 26.5 * 3.141592653589793 * 0.002**2
+    assert time_step(asked) == pytest.approx(0.9 * 2 * (mass / 6.75e8) ** 0.5)
+    assert time_step(replace(asked, stiffness=0.25)) == pytest.approx(2 * time_step(asked))
+    assert time_step(replace(asked, settings={"dt_max": "1e-8"})) == 1e-8
+    assert time_step(replace(asked, dt="5e-7")) == 5e-7
+
+
+def test_time_goes_with_grains_and_jobs(tmp_path):
+    one, two = Forecast(tmp_path, request(), 1), Forecast(tmp_path, request(), 2)
+    large = Forecast(tmp_path, request("TypeD_30x10_2-4_1-circle_9000"), 2)
+    assert seconds(two.total) < seconds(one.total) < 2 * seconds(two.total) < seconds(large.total)
+
+
+def test_the_speed_of_the_packing_that_is_done_here(tmp_path):
+    """A microsecond a disc and step: 40 times as slow as usual. What is done takes no more time."""
+    pack = packing(tmp_path, request())
+    pack.folder.mkdir()
+    pack.log.write_text("Loop time of 35 on 1 procs for 100000 steps with 500 atoms\n" + GOODBYE, encoding="utf-8")
+    finish(pack)
+    slow = Forecast(tmp_path, request(), 2)
+    assert "1000 ns a disc and step" in slow.total and "pack: done" in slow.phases
+    for phase in (phase for sigma in (100, 200) for phase in shearing(tmp_path, request(), sigma)):
+        phase.folder.mkdir(exist_ok=True)
+        finish(phase)
+    assert seconds(Forecast(tmp_path, request(), 2).total) == 0

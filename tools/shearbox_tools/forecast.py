@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What a run will do, about how long that takes, and how much it writes.
+
+All times are estimates: steps from the stability limit of the smallest disc and from what packing has taken for the
+models there are; the time of a step from the log of the packing if that is done, else as measured on one machine.
+"""
+
+import math
+from pathlib import Path
+
+from .display import duration
+from .logs import read_logs
+from .models import PARAMETERS, read_variables
+from .numerals import number
+from .phases import CONSOLIDATE, PACK, SHEAR, Phase, deck, disk_need, packing, shearing
+from .request import Request
+
+SECONDS_PER_DISC_AND_STEP = 25e-9
+SECONDS_PER_DISC_AND_FRAME = 18e-6
+STEPS = {PACK: 150_000, CONSOLIDATE: 10_000}  # for each disc of a grain: 112,000 to 200,000, and 4,000 to 20,000
+
+
+class Forecast:
+    """Of what is left to do of a request in its folder, `jobs` stresses at a time; nothing is written."""
+
+    def __init__(self, folder: Path, request: Request, jobs: int) -> None:
+        self._folder = folder
+        self._request = request
+        self._jobs = jobs
+        self._packing = packing(folder, request)
+        self._shearing = [phase for sigma in request.stresses for phase in shearing(folder, request, sigma)]
+        self._dt = time_step(request)
+        self._discs = request.model.ngrains * request.model.discs
+        self._pace = self._recorded_pace() or SECONDS_PER_DISC_AND_STEP
+
+    @property
+    def phases(self) -> str:
+        """A line for the model, each setting, and each phase."""
+        request, model = self._request, self._request.model
+        return "\n".join(
+            [
+                f"{model.name}: {model.ngrains} grains of {model.discs} disc{'s' * (model.discs > 1)}, box "
+                f"{100 * model.width:g} x {200 * model.half_height:g} cm, {request.travel:g} mm at {request.speed:g} mm/s",
+                *(f"{name} = {value}" for name, value in request.settings.items()),
+                *(f"{phase.label}: {self._what(phase)}" for phase in (self._packing, *self._shearing)),
+            ]
+        )
+
+    @property
+    def total(self) -> str:
+        """A line of the time that is left, what it goes by, and the disk that is needed."""
+        stresses = len(self._request.stresses)
+        share = math.ceil(stresses / self._jobs) / stresses  # jobs run side by side, on a core each
+        seconds = self._seconds(self._packing) + share * sum(map(self._seconds, self._shearing))
+        megabytes = disk_need(self._request, self._folder) / 1e6
+        return (
+            f"about {duration(seconds)} and {megabytes:.0f} MB (an estimate from {self._pace * 1e9:.0f} ns a disc and step, "
+            "good to a factor of 2)"
+        )
+
+    def _what(self, phase: Phase) -> str:
+        if phase.done:
+            return "done"
+        step = f" of {self._dt:.2g} s" if phase.name == SHEAR else ""
+        return f"about {float(f'{self._steps(phase):.2g}'):,.0f} steps{step}, {duration(self._seconds(phase))}"
+
+    def _seconds(self, phase: Phase) -> float:
+        """Time still to go."""
+        frames = int(read_variables(deck(SHEAR))["frames"]) if phase.name == SHEAR else 0
+        spent = self._steps(phase) * self._pace + frames * SECONDS_PER_DISC_AND_FRAME
+        return 0.0 if phase.done else self._discs * spent
+
+    def _steps(self, phase: Phase) -> float:
+        """Steps still to do."""
+        if phase.name != SHEAR:
+            return self._request.model.discs * STEPS[phase.name]
+        return max(0.0, self._request.travel - phase.displacement()) / self._request.speed / self._dt
+
+    def _recorded_pace(self) -> float | None:
+        """Seconds a disc and step of the packing, if it is done."""
+        log = read_logs(self._packing.log)
+        return log.seconds / log.steps / self._discs if self._packing.done and log.steps else None
+
+
+def time_step(request: Request) -> float:
+    """The step (s) that is asked for, or about what auto will take: 0.9 of the limit of the smallest disc in a triangular
+    lattice of its like (src/core/stability.h)."""
+    if request.dt != "auto":
+        return number(request.dt)
+    texts = read_variables(PARAMETERS) | request.settings
+    p = {name: number(texts[name]) for name in ("kn", "ks", "hn", "hs", "density", "thickness", "dt_max")}
+    mass = p["density"] * p["thickness"] * math.pi / 4 * request.model.dmin**2
+    kn, ks = request.stiffness * p["kn"], request.stiffness * p["ks"]
+    stiffness = 6 * kn + 3 * ks
+    damping = math.sqrt(2 * mass) * (6 * p["hn"] * math.sqrt(kn) + 3 * p["hs"] * math.sqrt(ks))
+    limit = 4 * mass / (math.sqrt(damping**2 + 4 * mass * stiffness) + damping)
+    return min(0.9 * limit, p["dt_max"] / math.sqrt(request.stiffness))
