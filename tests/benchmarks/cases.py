@@ -153,13 +153,14 @@ def consolidate(model: str, sigma: float, stiffness: float, beds: Path) -> Path:
     folder = beds / f"{model}-{sigma:g}-{stiffness:g}"
     if not folder.exists():
         made = folder.with_name(folder.name + ".new")
-        about = {"decks": INPUT, "model": model, "stiffness": stiffness}
+        about = {"decks": INPUT, "model": model, "stiffness": stiffness, "sides": "discs"}  # the peers have no lines
         start(Job(CDEM, INPUT / "pack.in", about), made / "packed")
         packed = made / "packed" / "packed.restart"
         start(Job(CDEM, INPUT / "consolidate.in", {**about, "packed": packed, "sigma": sigma}), made / "consolidated")
         restart = made / "consolidated" / "consolidated.restart"
         start(Job(CDEM, HERE / "shear_bed.in", about, files=(restart,)), made / "shear")
         plain_atoms(made / "shear" / "shear.data")
+        without_types_of_lines(made / "shear" / "shear.data")
         shutil.move(made / "shear", folder)
         shutil.rmtree(made)
     return folder
@@ -168,6 +169,11 @@ def consolidate(model: str, sigma: float, stiffness: float, beds: Path) -> Path:
 def plain_atoms(data: Path) -> None:
     """Takes the atom style out of the heading of a data file, which LIGGGHTS does not understand."""
     data.write_text(re.sub(r"^Atoms # sphere", "Atoms", data.read_text(), flags=re.M))
+
+
+def without_types_of_lines(data: Path) -> None:
+    """Takes types 3 and 4 out of a data file, of which there are no atoms: the peers want coefficients of all types."""
+    data.write_text(re.sub(r"^4( +atom types)", r"2\1", data.read_text(), flags=re.M))
 
 
 def write_rigid(folder: Path) -> None:

@@ -284,7 +284,7 @@ def test_a_moved_wall_under_another_id_is_refused(tmp_path: Path, kept: Run) -> 
 def test_clumps_do_not_become_discs(tmp_path: Path, kept: Run) -> None:
     """Neither from a restart file nor between two runs; but if it is said."""
     without = READ.replace("fix   shape", "#")
-    message = "the grains had shapes of several discs so far, and there is no fix cdem/shape"
+    message = "atoms had other shapes than a disc so far, and there is no fix cdem/shape"
     assert message in refused(_read(without, kept), tmp_path, style="verlet")
     assert message in refused(_read(READ, kept) + "unfix shape\nrun 1\n", tmp_path, style="verlet")
     said = READ.replace("type 1 discs 2 -1 0 1 1 0 1", "type 1 single")

@@ -8,6 +8,7 @@ import numpy as np
 
 STEPS_PER_ROW = 5000
 GRAINS = 350
+CELLS = "x y solid grains coordination stress_xx stress_yy stress_xy velocity_x velocity_y spin gradient_xx gradient_yy gradient_xy gradient_yx"
 
 
 def softening(s: np.ndarray, peak: float, at: float, residual: float) -> np.ndarray:
@@ -101,10 +102,10 @@ def walls(width: float, half_height: float, diameter: float, shift: float) -> tu
 
 
 def write_frames(folder: Path, steps: list[int], travel: float, width: float = 0.1, half_height: float = 0.05) -> None:
-    """grains.dump, discs.dump and contacts.dump of a hexagonal packing that shears homogeneously."""
+    """The dumps of a hexagonal packing that shears homogeneously, under 100 kPa in y."""
     radius = 0.00277
     start = packing(width, 2 * half_height, radius)[:GRAINS]
-    texts: dict[str, list[str]] = {"grains": [], "discs": [], "contacts": []}
+    texts: dict[str, list[str]] = {"grains": [], "discs": [], "contacts": [], "cells": []}
     for number, step in enumerate(steps):
         shear = travel * 1e-3 * number / max(1, len(steps) - 1)
         centres = start + np.column_stack(
@@ -143,6 +144,14 @@ def write_frames(folder: Path, steps: list[int], travel: float, width: float = 0
                 _contact_rows(centres, radius),
             )
         )
+        texts["cells"].append(
+            _frame(
+                step,
+                "ENTRIES " + " ".join(f"c_cells[{k}]" for k in range(1, 16)),
+                _cell_rows(width, half_height, travel),
+            )
+        )
+    (folder / "cells.columns").write_text(CELLS + "\n", encoding="utf-8")
     (folder / "discs.columns").write_text("id disc x y radius angle type\n", encoding="utf-8")
     (folder / "contacts.columns").write_text(
         "id1 id2 disc1 disc2 x y fn ft fx fy nx ny overlap sliding\n", encoding="utf-8"
@@ -150,6 +159,18 @@ def write_frames(folder: Path, steps: list[int], travel: float, width: float = 0
     for name, frames in texts.items():
         (folder / f"{name}.dump").write_text("".join(frames), encoding="utf-8")
     assert len(start) == GRAINS
+
+
+def _cell_rows(width: float, half_height: float, travel: float, count: int = 10) -> list[str]:
+    """Cells of a specimen that shears by the same rate everywhere, in one second."""
+    rate = travel * 1e-3 / (2 * half_height)
+    centres = (np.arange(count) + 0.5) / count
+    return [
+        f"{x * width:.8g} {y * 2 * half_height:.8g} 0.82 3.5 4 500 1000 300 {rate * y * 2 * half_height:.6g} 0 "
+        f"{-rate / 2:.6g} 0 0 {rate:.6g} 0"
+        for y in centres
+        for x in centres
+    ]
 
 
 def _contact_rows(centres: np.ndarray, radius: float) -> list[str]:

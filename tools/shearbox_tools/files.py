@@ -31,9 +31,11 @@ SHEAR_RESTARTS = ("shear.restart.a", "shear.restart.b")
 GRAINS_DUMP = "grains.dump"
 DISCS_DUMP = "discs.dump"
 CONTACTS_DUMP = "contacts.dump"
-DUMPS = (GRAINS_DUMP, DISCS_DUMP, CONTACTS_DUMP)
+CELLS_DUMP = "cells.dump"
+DUMPS = (GRAINS_DUMP, DISCS_DUMP, CONTACTS_DUMP, CELLS_DUMP)
 COLUMNS = ".columns"  # ending of the file beside a dump that names its columns
-FRAMES = (*DUMPS, "discs" + COLUMNS, "contacts" + COLUMNS)  # what pictures are made of
+PICTURED = (GRAINS_DUMP, DISCS_DUMP, CONTACTS_DUMP, "discs" + COLUMNS, "contacts" + COLUMNS)  # of what pictures are made
+FRAMES = (*PICTURED, CELLS_DUMP, "cells" + COLUMNS)
 
 
 def stress_folder(folder: Path, sigma: float) -> Path:

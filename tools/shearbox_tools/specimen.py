@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from .dumps import CONTACTS, DISCS, GRAINS, Dump
-from .files import CONTACTS_DUMP, DISCS_DUMP, FRAMES, GRAINS_DUMP
+from .files import CONTACTS_DUMP, DISCS_DUMP, GRAINS_DUMP, PICTURED
 from .readers import Columns
 
 
@@ -42,7 +42,7 @@ class Moment:
 
 def missing_frames(folder: Path) -> list[str]:
     """Files of the frames of a shear phase that are gone: they may be removed when they are no longer wanted."""
-    return [name for name in FRAMES if not (folder / name).exists()]
+    return [name for name in PICTURED if not (folder / name).exists()]
 
 
 class Film:

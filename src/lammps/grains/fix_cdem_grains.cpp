@@ -55,8 +55,8 @@ void FixCDEMGrains::begin_moving(Fix *by) {
   mover->array_atom = state;
 }
 
-void FixCDEMGrains::set_clumps(bool yes) {
-  kept.clumps = yes;
+void FixCDEMGrains::set_shapes(bool yes) {
+  kept.shapes = yes;
   wd_section = yes;
 }
 

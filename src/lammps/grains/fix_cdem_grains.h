@@ -86,11 +86,11 @@ public:
   double inertia(int type) const { return inertias[type]; }
   void set_inertias(const std::vector<double> &by_type) { inertias = by_type; }
 
-  // Whether grains may have several discs.
-  bool may_be_clumps() const { return kept.clumps != 0; }
+  // Whether atoms may be other than single discs: clumps, or pieces of smooth walls.
+  bool may_have_shapes() const { return kept.shapes != 0; }
   // Then data files get a section with the angles, since LAMMPS reads no file with a section that it does not know:
   // without the angles, clumps would be read as others.
-  void set_clumps(bool yes);
+  void set_shapes(bool yes);
 
   // --- how the time is stepped ---
   // Gravity (m/s^2), drag (1/s), and the share of half a step by which the dashpots' velocity is carried forward (see
@@ -144,7 +144,7 @@ private:
   bool scene_is_new = false; // a step has been made since it was kept
   struct {
     std::uint64_t grains = 0, rules = 0; // fingerprints of the scene
-    double clumps = 0;
+    double shapes = 0;
   } kept; // what restart files keep
 };
 

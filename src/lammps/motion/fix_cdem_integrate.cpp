@@ -137,7 +137,7 @@ void FixCDEMIntegrate::init() {
   tell_grains();
   settle_angles();
   refuse_lost_shapes();
-  grains->set_clumps(contacts->rows.has_clumps());
+  grains->set_shapes(contacts->rows.has_clumps() || contacts->rows.has_lines());
   step.init();
   reset_dt();
 }
@@ -165,9 +165,9 @@ void FixCDEMIntegrate::tell_rules() {
 }
 
 void FixCDEMIntegrate::refuse_lost_shapes() const {
-  if (grains->may_be_clumps() && !FixCDEMShape::find(lmp))
+  if (grains->may_have_shapes() && !FixCDEMShape::find(lmp))
     error->all(FLERR,
-               "Fix cdem/integrate {}: the grains had shapes of several discs so far, and there is no fix cdem/shape: "
+               "Fix cdem/integrate {}: atoms had other shapes than a disc so far, and there is no fix cdem/shape: "
                "define it as it was, or with 'single' for all types to make them discs",
                id);
 }

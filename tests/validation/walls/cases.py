@@ -75,7 +75,7 @@ def read(table: Path) -> dict[str, float]:
 
     peak = int(np.argmax(smooth(tau)))
     tau_p, lid_p, plane_p = (smooth(y)[peak] for y in (tau, lid, plane))
-    rate = np.diff(smooth(rows["lid_mm"])[:: width]) / np.diff(smooth(s)[:: width])
+    rate = np.diff(smooth(rows["lid_mm"])[::width]) / np.diff(smooth(s)[::width])
     return {
         "sides_at_rest": float(plane[0] / lid[0] - 1),
         "sides_at_peak": float(plane_p / lid_p - 1),
@@ -96,8 +96,15 @@ def all_models() -> list[str]:
 
 def cases(seeds: int) -> list[Case]:
     """All models with both kinds of sides; four models with other discs and pitches. The cheap ones first."""
-    found = [Case(m, seed, sides) for seed in range(1, seeds + 1) for m in all_models() for sides in ("smooth", "discs")]
-    found += [Case(m, seed, "discs", 1, pitch) for seed in range(1, seeds + 1) for m in STUDIED for pitch in (0.5, 0.25, 0.125)]
+    found = [
+        Case(m, seed, sides) for seed in range(1, seeds + 1) for m in all_models() for sides in ("smooth", "discs")
+    ]
+    found += [
+        Case(m, seed, "discs", 1, pitch)
+        for seed in range(1, seeds + 1)
+        for m in STUDIED
+        for pitch in (0.5, 0.25, 0.125)
+    ]
     found += [Case(m, seed, sides, disc) for seed in range(1, seeds + 1) for m in STUDIED for disc in (0.5, 2)
               for sides in ("smooth", "discs")]  # fmt: skip
     return sorted(found, key=lambda case: (case.cost * case.seed**2, case.key))

@@ -30,7 +30,9 @@ def publish(values: Values, out: Path) -> Path:
         "three columns are the vertical load of the upper half's walls over that of the lid: at the first row, at the peak, "
         "in the mean over the test.\n\n"
     )
-    text += table("walls", [(m, w, groups[m, w]) for m in models for w in ("discs_1_1", "smooth_1_1") if (m, w) in groups])
+    text += table(
+        "walls", [(m, w, groups[m, w]) for m in models for w in ("discs_1_1", "smooth_1_1") if (m, w) in groups]
+    )
     text += "\nOther discs and distances: kind of sides, size of wall discs over the smallest grain, pitch of side discs.\n\n"
     studied = [(m, w, rows) for (m, w), rows in sorted(groups.items()) if m in STUDIED]
     text += table("walls", studied)
@@ -58,7 +60,9 @@ def draw(groups: dict[tuple[str, str], list[dict[str, float]]], file: Path) -> N
         for name, colour, mark in (("peak_lid", "black", "o"), ("peak_plane", "tab:blue", "s")):
             points = [(0.0, "smooth_1_1")] + [(p, f"discs_1_{p:g}") for p in (0.125, 0.25, 0.5, 1)]
             xy = [(pitch, row[name]) for pitch, walls in points for row in groups.get((model, walls), [])]
-            panel.plot(*zip(*xy, strict=True) if xy else ([], []), mark, color=colour, mfc="none", label=name.split("_")[1])
+            panel.plot(
+                *zip(*xy, strict=True) if xy else ([], []), mark, color=colour, mfc="none", label=name.split("_")[1]
+            )
         panel.set(title=model, xlabel="pitch of side discs / diameter")
         panel.title.set_fontsize(8)
     panels[0].set_ylabel("greatest τ/σ")
