@@ -15,7 +15,8 @@ INPUT = ROOT / "input"
 sys.path.insert(0, str(ROOT / "tools"))
 
 from shearbox_tools.dumps import Dump  # noqa: E402
-from shearbox_tools.files import DISCS_DUMP, GRAINS_DUMP, PACKED_TABLE, SHEAR_TABLE  # noqa: E402
+from shearbox_tools.files import CELLS_DUMP, DISCS_DUMP, GRAINS_DUMP, PACKED_TABLE, SHEAR_TABLE  # noqa: E402
+from shearbox_tools.grains import area_over_largest  # noqa: E402
 from shearbox_tools.models import read_model  # noqa: E402
 from shearbox_tools.readers import read_row, read_shear  # noqa: E402
 from shearbox_tools.specimen import Film, count_lost  # noqa: E402
@@ -62,6 +63,43 @@ def test_the_tables(folder: Path) -> None:
     work = 0.01 * WIDTH * (pushed - lifted)  # J, on an area in m^2: kPa mm are J/m^2
     assert work == pytest.approx(shear["work_J"][-1] - shear["work_J"][0], rel=0.1)
     assert np.all(np.abs(shear["residual_J"]) < 0.01 * shear["work_J"][-1])
+
+
+def test_stresses_are_in_balance(folder: Path) -> None:
+    """Of the grains as a whole and of those above the plane between the halves, up to inertia: floor bears what comes
+    through the plane and what the upper half's flanges press down, less what the lower sides bear; the horizontal forces
+    on the upper half are the shear stress on the lower one. Means of the stress inside are those on the walls: normal
+    stresses of floor and lid, and of the sides by their heights. Smooth sides bear what leans on their corners alone.
+    """
+    c = {name: column[10:].mean() for name, column in read_shear(folder / SHEAR_TABLE).items()}
+    near = 0.03 * c["sigma_kPa"]  # 40 grains at 20 mm/s are not quite at rest
+    floor = c["plane_kPa"] + c["flanges_upper_kPa"] - c["sides_lower_kPa"]
+    assert c["floor_kPa"] == pytest.approx(floor, abs=near)
+    corners = c["flanges_upper_kPa"] + c["flanges_lower_kPa"]  # which are round, and so bear some shear
+    assert c["plane_tau_kPa"] == pytest.approx(c["tau_kPa"], abs=near + corners)
+    assert c["tau_upper_kPa"] == pytest.approx(c["tau_kPa"], abs=near)
+    facing = WIDTH / (WIDTH - 1e-3 * c["displacement_mm"])
+    assert c["overlap_kPa"] == pytest.approx(c["plane_kPa"] * facing, rel=1e-3)
+    assert c["overlap_tau_kPa"] == pytest.approx(c["plane_tau_kPa"] * facing, rel=1e-3)
+    assert c["left_lower_kPa"] > c["right_lower_kPa"] >= 0 and c["right_upper_kPa"] > c["left_upper_kPa"] >= 0
+    pushed = (c["left_lower_kPa"] - c["right_lower_kPa"]) * HALF_HEIGHT / WIDTH
+    assert pushed + c["floor_tau_kPa"] == pytest.approx(c["tau_kPa"], abs=near)
+    assert c["stress_yy_kPa"] == pytest.approx((c["floor_kPa"] + c["sigma_kPa"]) / 2, rel=0.15)
+    assert 0.6 < c["solid_fraction"] < 0.95 and 2 < c["coordination"] < 8
+    assert c["fabric_xx"] + c["fabric_yy"] == pytest.approx(1, abs=1e-5)
+
+
+def test_cells_make_up_the_specimen(folder: Path) -> None:
+    """The area of the grains is all in them, but for what is between the discs of floor and lid; rows begin at the floor."""
+    cells = Dump(folder / CELLS_DUMP, ("x", "y", "solid"))
+    frame, columns = cells.frame(0), 10
+    rows = len(frame["x"]) // columns
+    assert rows == round(columns * 2 * HALF_HEIGHT / WIDTH)
+    assert frame["x"][:columns] == pytest.approx(WIDTH / columns * (np.arange(columns) + 0.5))
+    height = 2 * frame["y"].mean()
+    cell = WIDTH / columns * height / rows
+    cross = area_over_largest(read_model(folder / "crosses.in").shape) * D**2
+    assert 0.95 < frame["solid"].sum() * cell / (GRAINS * cross) < 1.001
 
 
 def test_five_discs_a_grain_where_they_belong(folder: Path) -> None:

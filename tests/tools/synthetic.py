@@ -8,7 +8,7 @@ import numpy as np
 
 STEPS_PER_ROW = 5000
 GRAINS = 350
-CELLS = "x y solid grains coordination stress_xx stress_yy stress_xy velocity_x velocity_y spin gradient_xx gradient_yy gradient_xy gradient_yx"
+CELLS = "x y solid coordination stress_xx stress_yy stress_xy velocity_x velocity_y spin gradient_xx gradient_yy gradient_xy gradient_yx"
 
 
 def softening(s: np.ndarray, peak: float, at: float, residual: float) -> np.ndarray:
@@ -166,7 +166,7 @@ def _cell_rows(width: float, half_height: float, travel: float, count: int = 10)
     rate = travel * 1e-3 / (2 * half_height)
     centres = (np.arange(count) + 0.5) / count
     return [
-        f"{x * width:.8g} {y * 2 * half_height:.8g} 0.82 3.5 4 500 1000 300 {rate * y * 2 * half_height:.6g} 0 "
+        f"{x * width:.8g} {y * 2 * half_height:.8g} 0.82 4 500 1000 300 {rate * y * 2 * half_height:.6g} 0 "
         f"{-rate / 2:.6g} 0 0 {rate:.6g} 0"
         for y in centres
         for x in centres

@@ -34,7 +34,14 @@ CONTACTS_DUMP = "contacts.dump"
 CELLS_DUMP = "cells.dump"
 DUMPS = (GRAINS_DUMP, DISCS_DUMP, CONTACTS_DUMP, CELLS_DUMP)
 COLUMNS = ".columns"  # ending of the file beside a dump that names its columns
-PICTURED = (GRAINS_DUMP, DISCS_DUMP, CONTACTS_DUMP, "discs" + COLUMNS, "contacts" + COLUMNS)  # of what pictures are made
+# of what pictures are made
+PICTURED = (
+    GRAINS_DUMP,
+    DISCS_DUMP,
+    CONTACTS_DUMP,
+    "discs" + COLUMNS,
+    "contacts" + COLUMNS,
+)
 FRAMES = (*PICTURED, CELLS_DUMP, "cells" + COLUMNS)
 
 

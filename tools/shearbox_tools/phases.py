@@ -16,7 +16,7 @@ from .restarts import step_of
 from .seals import Seal, look_at, seal, unseal
 
 DECKS = PACK, CONSOLIDATE, SHEAR = "pack", "consolidate", "shear"
-BYTES_PER_FRAME_AND_DISC = 400  # of the three dumps together; the walls' share is in it
+BYTES_PER_FRAME_AND_DISC = 400  # of the four dumps together; the walls' share is in it
 
 
 @dataclass(frozen=True)
