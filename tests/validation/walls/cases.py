@@ -67,23 +67,26 @@ def read(table: Path) -> dict[str, float]:
     with table.open() as stream:
         names = stream.readline().lstrip("#").split()
     rows = dict(zip(names, np.loadtxt(table).T, strict=True))
-    s, tau, lid, plane = (rows[n] for n in ("displacement_mm", "tau_kPa", "sigma_kPa", "plane_kPa"))
+    s, tau, lid = (rows[n] for n in ("displacement_mm", "tau_kPa", "sigma_kPa"))
     width = max(1, round(WINDOW / np.mean(np.diff(s))))
 
-    def smooth(y: np.ndarray) -> np.ndarray:
-        return np.convolve(y, np.ones(width) / width, "valid")
+    def smooth(name: str) -> np.ndarray:
+        return np.convolve(rows[name], np.ones(width) / width, "valid")
 
-    peak = int(np.argmax(smooth(tau)))
-    tau_p, lid_p, plane_p = (smooth(y)[peak] for y in (tau, lid, plane))
-    rate = np.diff(smooth(rows["lid_mm"])[::width]) / np.diff(smooth(s)[::width])
+    peak = int(np.argmax(smooth("tau_kPa")))
+    sides, flanges = rows["sides_upper_kPa"] / np.mean(lid), rows["flanges_upper_kPa"] / np.mean(lid)
+    rate = np.diff(smooth("lid_mm")[::width]) / np.diff(smooth("displacement_mm")[::width])
     return {
-        "sides_at_rest": float(plane[0] / lid[0] - 1),
-        "sides_at_peak": float(plane_p / lid_p - 1),
-        "sides_most": float(np.max(np.abs(smooth(plane) / smooth(lid) - 1))),
-        "sides_mean": float(np.mean(plane) / np.mean(lid) - 1),
-        "peak_lid": float(tau_p / lid_p),
-        "peak_plane": float(tau_p / plane_p),
-        "at_mm": float(smooth(s)[peak]),
+        "sides_at_rest": float(sides[0]),
+        "sides_at_peak": float(smooth("sides_upper_kPa")[peak] / np.mean(lid)),
+        "sides_mean": float(np.mean(sides)),
+        "flanges_at_peak": float(smooth("flanges_upper_kPa")[peak] / np.mean(lid)),
+        "flanges_mean": float(np.mean(flanges)),
+        "peak_lid": float(np.max(smooth("tau_kPa")) / np.mean(lid)),
+        "peak_plane": float(np.max(smooth("plane_tau_kPa") / smooth("plane_kPa"))),
+        "mean_lid": float(np.mean(tau) / np.mean(lid)),
+        "mean_plane": float(np.mean(rows["plane_tau_kPa"]) / np.mean(rows["plane_kPa"])),
+        "at_mm": float(smooth("displacement_mm")[peak]),
         "dilatancy": float(np.max(rate)),
         "rise_mm": float(rows["lid_mm"][-1]),
         "trm": float(rows["trm"][-1]),

@@ -14,8 +14,10 @@ import numpy as np  # noqa: E402
 from cases import SIGMA, SPEED, STUDIED  # noqa: E402
 
 Values = dict[str, dict[str, float]]
-COLUMNS = {"sides_at_rest": "rest", "sides_at_peak": "peak", "sides_mean": "mean", "peak_lid": "τ/σ lid",
-           "peak_plane": "τ/σ plane", "dilatancy": "dilatancy", "rise_mm": "rise, mm", "trm": "TRM"}  # fmt: skip
+COLUMNS = {"sides_at_rest": "sides, rest", "sides_at_peak": "sides, peak", "sides_mean": "sides, mean",
+           "flanges_at_peak": "flanges, peak", "flanges_mean": "flanges, mean", "peak_lid": "peak τ/σ lid",
+           "peak_plane": "peak τ/σ plane", "mean_lid": "mean τ/σ lid", "mean_plane": "mean τ/σ plane",
+           "dilatancy": "dilatancy", "rise_mm": "rise, mm", "trm": "TRM"}  # fmt: skip
 
 
 def publish(values: Values, out: Path) -> Path:
@@ -26,9 +28,9 @@ def publish(values: Values, out: Path) -> Path:
         groups[model, walls].append(row)
     models = sorted({model for model, _ in groups})
     text = (
-        f"Shear at {SIGMA} kPa and {SPEED} mm/s. Mean over the packings, with half of the range; n is their number. The first "
-        "three columns are the vertical load of the upper half's walls over that of the lid: at the first row, at the peak, "
-        "in the mean over the test.\n\n"
+        f"Shear at {SIGMA} kPa and {SPEED} mm/s. Mean over the packings, with half of the range; n is their number. Loads on "
+        "sides and flanges of the upper half are over that of the lid: at the first row, at the peak of τ, in the mean over "
+        "the test. Plane: stresses through the plane between the halves. Peaks are those of means over 0.4 mm.\n\n"
     )
     text += table(
         "walls", [(m, w, groups[m, w]) for m in models for w in ("discs_1_1", "smooth_1_1") if (m, w) in groups]
