@@ -21,7 +21,7 @@ def test_all_variables_of_the_decks_have_a_range():
     """But for what follows from others; and their own values are within."""
     known = parameters()
     follows = {name for name in read_variables(PARAMETERS) if name not in known}
-    assert follows == {"areal"}
+    assert follows == {"areal", "wall_types"}
     assert [p.name for p in known.values() if p.value is not None and p.problem(p.value)] == []
     assert {name for model in all_models() for name in model.variables} <= set(known)
     for model in all_models():
