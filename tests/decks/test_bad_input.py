@@ -107,6 +107,8 @@ CASES: dict[str, tuple[str, str, str]] = {
     "time step negative": ("timestep      2e-7", "timestep      -2e-7", r"Fix cdem/integrate: the time step -2e-07 must be positive"),
     "automatic dt without grains": ("grains cdem/integrate dt check", "nobody cdem/integrate dt auto", r"Fix cdem/integrate.*no grain"),
     "rescue without a file": ("dt check", "dt check rescue", r"Fix cdem/integrate: rescue: a file or none is missing"),
+    "no part": ("timestep", "compute load all cdem/force\ntimestep", r"Compute cdem/force load: names of groups are missing"),
+    "an unknown part": ("timestep", "compute load all cdem/force roof\ntimestep", r"Compute cdem/force load: there is no group roof"),
     "an argument of the limit": ("timestep", "compute limit all cdem/limit fast\ntimestep", r"Compute cdem/limit: unknown argument fast"),
     "the limit of a group": ("timestep", "compute limit grains cdem/limit\ntimestep", r"Compute cdem/limit limit: the group must be all"),
     "a group that is not there": ("move grains", "move sand", r"sand"),

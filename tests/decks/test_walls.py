@@ -211,3 +211,32 @@ def test_forces_on_the_walls_sum_to_the_whole(tmp_path: Path, law: str, ranks: i
     assert y == pytest.approx(thermo["c_f[2]"], abs=1e-11)
     assert thermo["c_grains[1]"] == pytest.approx(-x, abs=1e-10)
     assert thermo["c_grains[2]"] + thermo["v_weight"] == pytest.approx(-y, abs=1e-10)
+
+
+@pytest.mark.parametrize("style", ["verlet", "verlet/cdem"])
+def test_forces_on_parts_are_those_of_the_fixes(tmp_path: Path, ranks: int, style: str) -> None:
+    """Compute cdem/force of floor, left side, right side and both gives the bits of fixes cdem/move for the same discs;
+    the smooth floor and lid hold the weight and the load, and both sides are the sum of either."""
+    deck = f"""
+    {(DECKS / "mini_box.in").read_text()}
+    undump end
+    region left block -1 0 EDGE EDGE EDGE EDGE units box
+    group left region left
+    group sides type 2
+    group west intersect left sides
+    group east subtract sides west
+    fix west west cdem/move speed 0
+    fix east east cdem/move speed 0
+    compute part all cdem/force floor west east sides
+    thermo_style custom step c_part[*] f_floor[3] f_floor[4] f_west[3] f_west[4] f_east[3] f_east[4]
+    thermo_modify format float %.17g
+    thermo 20
+    run 400
+    """
+    discs, box = mini_box()
+    thermo = run(deck, tmp_path, discs=discs, box=box, ranks=ranks, style=style).thermo
+    for k, part in enumerate(["floor", "west", "east"]):
+        for axis in (1, 2):
+            assert np.array_equal(thermo[f"c_part[{2 * k + axis}]"], thermo[f"f_{part}[{axis + 2}]"]), part
+    assert np.all(thermo["c_part[3]"] <= 0) and np.any(thermo["c_part[3]"] < 0) and np.any(thermo["c_part[5]"] > 0)
+    assert thermo["c_part[7]"] == pytest.approx(thermo["c_part[3]"] + thermo["c_part[5]"], abs=1e-12)

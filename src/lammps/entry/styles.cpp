@@ -18,6 +18,7 @@
 #include "output/compute_cdem_contacts.h"
 #include "output/compute_cdem_discs.h"
 #include "output/compute_cdem_energy.h"
+#include "output/compute_cdem_force.h"
 #include "output/compute_cdem_grid.h"
 #include "output/compute_cdem_limit.h"
 #include "output/compute_cdem_trm.h"
@@ -76,6 +77,7 @@ const std::vector<Shearbox::Style> &Shearbox::styles() {
       compute<ComputeCDEMContacts>("cdem/contacts"),
       compute<ComputeCDEMDiscs>("cdem/discs"),
       compute<ComputeCDEMEnergy>("cdem/energy"),
+      compute<ComputeCDEMForce>("cdem/force"),
       compute<ComputeCDEMGrid>("cdem/grid"),
       compute<ComputeCDEMLimit>("cdem/limit"),
       compute<ComputeCDEMTRM>("cdem/trm"),

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "motion/wall_body.h"
 
-#include "core/exact_sum.h"
 #include "grains/fix_cdem_audit.h"
 #include "grains/fix_cdem_grains.h"
+#include "host/rank_sum.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -86,10 +86,7 @@ template <class Term> double WallBody::sum(Term term) const {
   cdem::ExactSum mine;
   for (int i : discs)
     mine.add(term(i));
-  const auto words = mine.words();
-  cdem::ExactSum::Words all;
-  MPI_Allreduce(words.data(), all.data(), static_cast<int>(words.size()), MPI_INT64_T, MPI_SUM, world);
-  return cdem::ExactSum(all).value();
+  return Shearbox::over_ranks(mine, world);
 }
 
 double WallBody::force_x() const {

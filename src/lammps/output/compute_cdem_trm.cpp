@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "output/compute_cdem_trm.h"
 
-#include "core/exact_sum.h"
 #include "grains/fix_cdem_grains.h"
 #include "host/compat.h"
+#include "host/rank_sum.h"
 #include "output/fix_cdem_trm.h"
 
 #include "atom.h"
@@ -67,11 +67,9 @@ double ComputeCDEMTRM::compute_scalar() {
     sum.add(ratio(i));
     moved++;
   }
-  const cdem::ExactSum::Words mine = sum.words();
-  cdem::ExactSum::Words all;
-  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_INT64_T, MPI_SUM, world);
   MPI_Allreduce(&moved, &all_moved, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  scalar = all_moved > 0 ? cdem::ExactSum(all).value() / static_cast<double>(all_moved) : 0;
+  const double total = Shearbox::over_ranks(sum, world);
+  scalar = all_moved > 0 ? total / static_cast<double>(all_moved) : 0;
   return scalar;
 }
 
