@@ -61,10 +61,6 @@ MASS = DENSITY * math.pi * 2e-3**2
 UPRIGHT: dict[str, Any] = {"ux": 0, "uy": 1, "vx": 1, "vy": 0, "hn": 0.215, "spin": 3}
 
 
-def upright(**changes: Any) -> dict[str, Any]:
-    return {**UPRIGHT, **changes}
-
-
 def grain(out: Run, column: str) -> np.ndarray:
     frames = out.dump("end.dump")
     return np.array([frame[column][frame["type"] == 1][0] for frame in frames])
@@ -87,7 +83,7 @@ def test_a_disc_slides_without_any_resistance(tmp_path: Path, law: str, ranks: i
 def test_a_disc_on_a_joint(tmp_path: Path, law: str, y: float, v: float, spin: float) -> None:
     """At rest on it, so slowly over it that it is as far from both pieces for steps, or rolling: no bit changes."""
     weight = 100 * MASS
-    out = run(WALL + GRAIN + END, tmp_path, law=law, **upright(spin=spin), x=-0.004 + weight / 1e8, y=y, gvx=0, gvy=v,
+    out = run(WALL + GRAIN + END, tmp_path, law=law, **dict(UPRIGHT, spin=spin), x=-0.004 + weight / 1e8, y=y, gvx=0, gvy=v,
               gx=100, gy=0, every=1000, steps=30000)  # fmt: skip
     assert np.all(grain(out, "vy") == v) and np.all(grain(out, "omegaz") == spin) and np.all(grain(out, "fy") == 0)
     assert out.thermo["f_wall[3]"][1:] == pytest.approx(np.full(30, weight), rel=2e-9)
@@ -114,7 +110,7 @@ def test_restitution_at_a_joint(tmp_path: Path, law: str, ranks: int) -> None:
     deck = deck.replace("set type 1 omega", "set type 1 density/disc 26.5\nset type 1 omega")
     steps = n + 16
     end = run(deck.replace("cdem/integrate", "cdem/integrate dt any"), tmp_path, law=law, ranks=ranks,
-              **upright(hn=h), gvx=speed, gvy=slide, gx=0, gy=0, every=steps, steps=steps).end  # fmt: skip
+              **dict(UPRIGHT, hn=h, gvx=speed), gvy=slide, gx=0, gy=0, every=steps, steps=steps).end  # fmt: skip
     grains = end["type"] == 1
     assert np.count_nonzero(grains) == 5
     e = math.exp(-math.pi * h / math.sqrt(1 - h * h))
@@ -126,7 +122,7 @@ def test_an_inclined_wall(tmp_path: Path, law: str, ranks: int) -> None:
     """On a wall inclined by 30 degrees a disc slides over three joints with g sin 30, without turning."""
     c = math.cos(math.pi / 6)
     distance = 0.004 - 500 * c * MASS / 1e8
-    out = run(WALL + GRAIN + END, tmp_path, law=law, ranks=ranks, **upright(ux=c, uy=0.5, spin=0), x=0.0105 * c - 0.5 * distance,
+    out = run(WALL + GRAIN + END, tmp_path, law=law, ranks=ranks, **dict(UPRIGHT, ux=c, uy=0.5, spin=0), x=0.0105 * c - 0.5 * distance,
               y=0.0105 * 0.5 + distance * c, gvx=0, gvy=0, gx=0, gy=-500, every=2000, steps=40000)  # fmt: skip
     t = np.arange(21) * 2000 * 2e-7
     assert np.hypot(grain(out, "vx"), grain(out, "vy"))[4:] == pytest.approx(250 * t[4:], rel=1e-6)
@@ -166,7 +162,7 @@ fix pull grains addforce v_fx v_fy 0 energy v_depth
 fix_modify pull energy yes
 """
     )
-    out = run(CORNER + pull + END, tmp_path, law="direct", ranks=ranks, **upright(hn=0, spin=0), x=-0.004 + 3e-8, y=0.0085,
+    out = run(CORNER + pull + END, tmp_path, law="direct", ranks=ranks, **dict(UPRIGHT, hn=0, spin=0), x=-0.004 + 3e-8, y=0.0085,
               gvx=0, gvy=2, gx=0, gy=0, every=100, steps=8000)  # fmt: skip
     total = out.thermo["PotEng"] + out.thermo["KinEng"]
     x, y = grain(out, "x"), grain(out, "y")
@@ -191,19 +187,19 @@ def test_same_bits(tmp_path: Path, law: str, shape: str) -> None:
     the grains press on them: the momentum of the grains changes by weight and walls alone."""
     one = rain(tmp_path / "1", law=law, shape=shape)
     assert np.count_nonzero(one.end["fx"][one.end["type"] == 1]) >= 5
-    ways: list[dict[str, Any]] = [{"ranks": 2}, {"ranks": 4}, {"style": "verlet"}, {"skin": 1e-4}]
-    for way in ways:
-        other = rain(tmp_path / "-".join(map(str, way.values())).replace("/", "_"), law=law, shape=shape, **way)
+    others: dict[str, dict[str, Any]] = {"2": {"ranks": 2}, "4": {"ranks": 4}, "verlet": {"style": "verlet"}, "skin": {"skin": 1e-4}}  # fmt: skip
+    for name, options in others.items():
+        other = rain(tmp_path / name, law=law, shape=shape, **options)
         for column in ("x", "y", "vx", "vy", "omegaz", "fx", "fy"):
-            assert np.array_equal(one.end[column], other.end[column]), (way, column)
+            assert np.array_equal(one.end[column], other.end[column]), (name, column)
         for column in ("f_wall[3]", "f_wall[4]"):
             assert one.thermo[column][-1] == other.thermo[column][-1]
 
 
 @pytest.mark.parametrize("ranks", [1, 4])
 def test_goes_on_from_a_restart_file(tmp_path: Path, law: str, ranks: int) -> None:
-    """Written while discs are on both sides of joints; and without fix cdem/shape the walls would become discs."""
-    deck, save = slides(), "restart 7000 middle.restart end.restart\nrun ${steps}"
+    """Written in the steps before and after discs go over joints, while they swing; and without fix cdem/shape the walls would become discs."""
+    deck, save = slides(), "restart 20 middle.restart end.restart\nrun ${steps}"
     whole = run(deck.replace("run ${steps}", save), tmp_path, law=law, ranks=ranks, **SLIDES)
     style = WALL[WALL.index("pair_style") :]
     shape = WALL[WALL.index("fix shape") : WALL.index("cdem/create")].replace("density 26.5", "")
@@ -216,14 +212,13 @@ def test_goes_on_from_a_restart_file(tmp_path: Path, law: str, ranks: int) -> No
     assert status != 0 and "atoms had other shapes than a disc so far" in output
 
 
-SLIDES: dict[str, Any] = UPRIGHT | {"gvx": 0, "gvy": 2, "gx": 100, "gy": 0, "every": 10000, "steps": 10000}
+SLIDES: dict[str, Any] = UPRIGHT | {"gvx": 0, "gvy": 2, "gx": 100, "gy": 0, "every": 30, "steps": 30}
 
 
 def slides() -> str:
-    """Four small discs that slide over joints, pressed with their weight; at step 7000 one is just before a joint."""
-    rows = "".join(
-        f"create_atoms 1 single {-0.003 + 25 * MASS / 1e8:.17g} {y} 0\n" for y in (-0.0108, -0.0083, -0.0028, 0.0012)
-    )
+    """Four small discs that just touch, pressed with their weight, and slide over joints in steps 19 to 22."""
+    ys = [-0.008 + 0.004 * k - 2 * 2e-7 * (18.5 + k) for k in range(4)]
+    rows = "".join(f"create_atoms 1 single -0.003 {y:.17g} 0\n" for y in ys)
     rows += "set type 1 diameter 0.002\nset type 1 density/disc 26.5\n"
     grains = GRAIN.replace("create_atoms 1 single ${x} ${y} 0\n", rows).replace("set type 1 diameter 0.004\n", "")
     return WALL + grains + END
