@@ -13,7 +13,9 @@ from shearbox_tools import display
 def show(console: Console, monkeypatch: pytest.MonkeyPatch) -> str:
     now = [0.0]
     monkeypatch.setattr(time, "monotonic", lambda: now[0])
-    shown = display.make_display(console, total=16, reached=4)
+    work = {"pack": 0.0, "shear 100 kPa": 80.0, "shear 200 kPa": 60.0, "shear 300 kPa": 20.0}
+    whole = display.Whole(work, {"shear 100 kPa": 0.5})
+    shown = display.make_display(console, whole)
     shown.started("pack", None, 0)
     shown.ended("pack", "done in 4 s")
     shown.started("shear 100 kPa", 8, 4)
@@ -42,7 +44,7 @@ def test_plain_lines(monkeypatch):
 
 def test_bars_on_a_terminal(monkeypatch):
     text = show(Console(file=io.StringIO(), width=120, force_terminal=True), monkeypatch)
-    assert "all stresses" in text and "8.00 mm" in text and "left" in text
+    assert "all" in text and "8.00 mm" in text and "about 5 min left" in text
     assert "shear 100 kPa: done in 3 min" in text
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 import synthetic
 
-from shearbox_tools.forecast import Forecast, time_step
+from shearbox_tools.forecast import Forecast, time_step, total
 from shearbox_tools.models import find_model
 from shearbox_tools.phases import SHEAR, Phase, packing, shearing
 from shearbox_tools.readers import BED
@@ -48,9 +48,10 @@ def test_time_step_without_damping_is_that_of_the_lattice():
 
 
 def test_time_goes_with_grains_and_jobs(tmp_path):
-    one, two = Forecast(tmp_path, request(), 1), Forecast(tmp_path, request(), 2)
-    large = Forecast(tmp_path, request("TypeD_30x10_2-4_1-circle_9000"), 2)
-    assert seconds(two.total) < seconds(one.total) < 2 * seconds(two.total) < seconds(large.total)
+    small, large = Forecast(tmp_path, request()), Forecast(tmp_path, request("TypeD_30x10_2-4_1-circle_9000"))
+    one, two = (seconds(total([small], jobs)) for jobs in (1, 2))
+    assert two < one < 2 * two < seconds(total([large], 2)), "nothing runs beside the packing"
+    assert seconds(total([small] * 8, 2)) == pytest.approx(4 * one, rel=0.05), "but that of another specimen"
 
 
 def test_the_speed_of_the_packing_that_is_done_here(tmp_path):
@@ -59,9 +60,9 @@ def test_the_speed_of_the_packing_that_is_done_here(tmp_path):
     pack.folder.mkdir()
     pack.log.write_text("Loop time of 35 on 1 procs for 100000 steps with 500 atoms\n" + GOODBYE, encoding="utf-8")
     finish(pack)
-    slow = Forecast(tmp_path, request(), 2)
-    assert "1000 ns a disc and step" in slow.total and "pack: done" in slow.phases
+    slow = Forecast(tmp_path, request())
+    assert "1000 ns a disc and step" in total([slow], 2) and "pack: done" in slow.lines
     for phase in (phase for sigma in (100, 200) for phase in shearing(tmp_path, request(), sigma)):
         phase.folder.mkdir(exist_ok=True)
         finish(phase)
-    assert seconds(Forecast(tmp_path, request(), 2).total) == 0
+    assert seconds(total([Forecast(tmp_path, request())], 2)) == 0

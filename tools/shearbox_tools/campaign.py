@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Working through the phases of a run, several at a time, so that it can be stopped and taken up at any moment."""
+"""Working through the phases of runs, several at a time, so that they can be stopped and taken up at any moment."""
 
 import json
-import math
 import signal
 import subprocess
 import time
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from .display import Display, duration
@@ -18,19 +17,33 @@ from .errors import ShearboxError
 from .files import TIMINGS, sync, write_json
 from .phases import SHEAR, Phase, all_phases, left_to_do
 from .repair import make_ready
-from .request import Request
 from .restarts import step_of
 from .seals import Seal, look_at, seal
+from .specimens import Run
 
 POLL_SECONDS = 0.1
 MOST_SECONDS = 1e9  # that a phase may have taken
 
 
 @dataclass
-class Job:
-    """A chain of phases of which the first is running."""
+class Chain:
+    """Phases of a run, one after the other, and the chains that can begin when they are done."""
 
+    run: Run
     phases: deque[Phase]
+    then: list["Chain"] = field(default_factory=list)
+
+    @property
+    def labels(self) -> list[str]:
+        """Of all its phases, and of those that wait for them."""
+        return [self.run.label(phase) for phase in self.phases] + [label for c in self.then for label in c.labels]
+
+
+@dataclass
+class Job:
+    """A chain of which the first phase is running."""
+
+    chain: Chain
     process: subprocess.Popen[bytes]
     begun: float = field(default_factory=time.monotonic)
     seen: dict[str, int] = field(default_factory=dict)  # times (ns) of the checkpoints that are sealed
@@ -38,77 +51,81 @@ class Job:
     @property
     def phase(self) -> Phase:
         """The running one."""
-        return self.phases[0]
+        return self.chain.phases[0]
+
+    @property
+    def label(self) -> str:
+        """How it is called among all."""
+        return self.chain.run.label(self.phase)
 
 
 class Campaign:
-    """One request carried out in its folder, whose lock is held meanwhile."""
+    """Runs carried out in their folders, whose locks are held meanwhile."""
 
-    def __init__(self, folder: Path, request: Request, engine: Engine, display: Display, lock: int) -> None:
-        self._folder = folder
-        self._request = request
+    def __init__(self, runs: Sequence[Run], engine: Engine, display: Display, locks: Mapping[Path, int]) -> None:
+        self._runs = runs
         self._engine = engine
         self._display = display
-        self._lock = lock
+        self._locks = locks
+        self._failures: list[Failure] = []
 
     def run(self, jobs: int) -> list[Failure]:
-        """Pack, then consolidate and shear each stress, `jobs` at a time; what failed is told and returned."""
-        for phase in all_phases(self._folder, self._request):
-            if look_at(phase.folder / phase.product) is Seal.UNKNOWN and phase.ended:
-                _seal(phase)  # the program that started its engine was killed
-        pack, chains = left_to_do(self._folder, self._request)
-        return self._work([pack] if pack else [], 1) or self._work(chains, jobs)
+        """Pack, consolidate and shear, `jobs` phases of all runs at a time; what failed is told and returned.
 
-    def _work(self, chains: Iterable[list[Phase]], jobs: int) -> list[Failure]:
-        """Run the chains; when one fails the others go on."""
-        waiting = deque(deque(chain) for chain in chains)
+        A failure ends what needs that phase, and nothing else. Stresses of a specimen that has been packed come before
+        the packing of the next: specimens are finished one by one.
+        """
+        waiting = deque(chain for run in self._runs for chain in _left_to_do(run))
         running: list[Job] = []
-        failures: list[Failure] = []
         try:
             while waiting or running:
                 while waiting and len(running) < jobs:
-                    phases = waiting.popleft()
-                    running.append(Job(phases, self._start(phases)))
+                    chain = waiting.popleft()
+                    running.append(Job(chain, self._start(chain)))
                 time.sleep(POLL_SECONDS)
                 self._guard_disk()
                 for job in list(running):
-                    if not self._attend(job, failures):
+                    if not self._attend(job):
                         running.remove(job)
+                        if not job.chain.phases:
+                            waiting.extendleft(reversed(job.chain.then))
         finally:
             self._stop(running)
-        return failures
+        return self._failures
 
-    def _start(self, phases: deque[Phase]) -> subprocess.Popen[bytes]:
-        phase, notes = make_ready(phases[0])
-        phases[0] = phase
+    def _start(self, chain: Chain) -> subprocess.Popen[bytes]:
+        phase, notes = make_ready(chain.phases[0])
+        chain.phases[0] = phase
+        label = chain.run.label(phase)
         for note in notes:
-            self._display.say(f"{phase.label}: {note}")
+            self._display.say(f"{label}: {note}")
         reached = phase.displacement()
-        process = self._engine.start(phase, self._lock)
-        sheared = phase.name == SHEAR
-        self._display.started(phase.label, self._request.travel if sheared else None, reached)
+        process = self._engine.start(phase, self._locks[chain.run.folder])
+        self._display.started(label, chain.run.request.travel if phase.name == SHEAR else None, reached)
         return process
 
-    def _attend(self, job: Job, failures: list[Failure]) -> bool:
+    def _attend(self, job: Job) -> bool:
         """Look after a job and go on to its next phase; whether there is more to do for it."""
         phase, status = job.phase, job.process.poll()
         if phase.name == SHEAR:
-            self._display.moved(phase.label, phase.displacement())
+            self._display.moved(job.label, phase.displacement())
         if status is None:
             _seal_checkpoints(job)
             return True
-        seconds = self._record_time(job)
+        seconds = _record_time(job)
         _seal(phase)
         if status != 0 or not phase.ended:
-            failures.append(explain_failure(phase, status))
-            self._display.ended(phase.label, f"failed after {duration(seconds)}")
+            failure = explain_failure(phase, status)
+            self._failures.append(replace(failure, message=f"{job.chain.run.name} {failure.message}".lstrip()))
+            self._display.ended(job.label, f"failed after {duration(seconds)}")
+            self._display.given_up(job.chain.labels)
             return False
         phase.screen.unlink(missing_ok=True)
-        self._display.ended(phase.label, f"done in {duration(seconds)}")
-        job.phases.popleft()
-        if job.phases:
-            job.process, job.begun = self._start(job.phases), time.monotonic()
-        return bool(job.phases)
+        self._display.ended(job.label, f"done in {duration(seconds)}")
+        job.chain.phases.popleft()
+        if job.chain.phases:
+            job.process, job.begun = self._start(job.chain), time.monotonic()
+        return bool(job.chain.phases)
 
     def _stop(self, running: list[Job]) -> None:
         """End what is still running; a second Ctrl-C must not cut this short."""
@@ -119,26 +136,29 @@ class Campaign:
         try:
             stop([job.process for job in alive])
             for job in alive:
-                self._record_time(job)
+                _record_time(job)
                 _seal(job.phase)
         finally:
             signal.signal(signal.SIGINT, before)
 
-    def _record_time(self, job: Job) -> float:
-        """Add the seconds of a phase to those of earlier attempts; its total is returned."""
-        timings = read_timings(self._folder)
-        total = timings.get(job.phase.label, 0.0) + time.monotonic() - job.begun
-        with suppress(ShearboxError):  # a full disk has more important things to say
-            write_json(self._folder / TIMINGS, {**timings, job.phase.label: round(total, 2)})
-        return total
-
     def _guard_disk(self) -> None:
-        free = free_bytes(self._folder)
+        folder = min((run.folder for run in self._runs), key=free_bytes)
+        free = free_bytes(folder)
         if free < LEAST_FREE_BYTES:
             raise ShearboxError(
-                f"stopped because the disk of {self._folder} is nearly full: {free / 1e6:.0f} MB free, "
+                f"stopped because the disk of {folder} is nearly full: {free / 1e6:.0f} MB free, "
                 f"{LEAST_FREE_BYTES / 1e6:.0f} are the least"
             )
+
+
+def _left_to_do(run: Run) -> list[Chain]:
+    """What can begin at once: the packing, or if there is one, what each stress lacks."""
+    for phase in all_phases(run.folder, run.request):
+        if look_at(phase.folder / phase.product) is Seal.UNKNOWN and phase.ended:
+            _seal(phase)  # the program that started its engine was killed
+    pack, left = left_to_do(run.folder, run.request)
+    chains = [Chain(run, deque(phases)) for phases in left]
+    return [Chain(run, deque(pack), chains)] if pack else chains
 
 
 def read_timings(folder: Path) -> dict[str, float]:
@@ -150,6 +170,16 @@ def read_timings(folder: Path) -> dict[str, float]:
         }
     except (OSError, ValueError, AttributeError, RecursionError):
         return {}
+
+
+def _record_time(job: Job) -> float:
+    """Add the seconds of a phase to those of earlier attempts; its total is returned."""
+    folder = job.chain.run.folder
+    timings = read_timings(folder)
+    total = timings.get(job.phase.label, 0.0) + time.monotonic() - job.begun
+    with suppress(ShearboxError):  # a full disk has more important things to say
+        write_json(folder / TIMINGS, {**timings, job.phase.label: round(total, 2)})
+    return total
 
 
 def _seal(phase: Phase) -> None:

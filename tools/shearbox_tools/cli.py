@@ -85,7 +85,7 @@ def _add_run(commands: Commands) -> None:
     )
     run.add_argument("model", metavar="MODEL",
                      help="name of a model, as 'shearbox models' lists them; or the path of a model file, NAME.in; or the "
-                     "folder of an earlier run, which goes on as it was asked for")  # fmt: skip
+                     "folder of earlier runs, which go on as they were asked for")  # fmt: skip
     run.add_argument("--out", metavar="DIR", type=Path, help="folder of the results; needed unless MODEL is one")
     run.add_argument("--stress", metavar="KPA", type=_stress, nargs="+", action="extend",
                      help="normal stresses, kPa (default: 100 200 300 400)")  # fmt: skip
@@ -95,6 +95,12 @@ def _add_run(commands: Commands) -> None:
     run.add_argument("--speed", metavar="V", type=float, help="shear speed, mm/s (default: that of --accuracy)")
     run.add_argument("--travel", metavar="S", type=float, help="shear displacement at the end, mm (default: 8)")
     run.add_argument("--seed", metavar="N", type=int, help="seed of the packing (default: 1)")
+    run.add_argument("--seeds", metavar="N", type=int, nargs="+", action="extend",
+                     help="several specimens: one number is how many, with seeds from 1 on; several are their seeds. Each is "
+                     "a run of its own, in DIR/seed_N")  # fmt: skip
+    run.add_argument("--independent", action="store_true",
+                     help="with --seeds: a packing of its own for each stress, in DIR/seed_N_KPAkPa; its seed is 1000000 N + "
+                     "100 KPA")  # fmt: skip
     run.add_argument("--law", choices=LAWS, help=f"contact law (default: {LAWS[0]})")
     run.add_argument("--dt", metavar="DT",
                      help="time step, s (default: auto, from the stability limit of the contacts)")  # fmt: skip
@@ -103,8 +109,14 @@ def _add_run(commands: Commands) -> None:
     run.add_argument("--set", metavar="NAME=VALUE", nargs="+", action="extend",
                      help="another value for a variable of the decks or of the model, such as phi=30; "
                      "'shearbox parameters' lists them")  # fmt: skip
-    run.add_argument("--jobs", metavar="N", type=int, default=2, help="stresses run at the same time (default: 2)")
-    run.add_argument("--ranks", metavar="N", type=int, default=1, help="MPI ranks of each of them (default: 1)")
+    run.add_argument(
+        "--jobs",
+        metavar="N",
+        type=int,
+        default=2,
+        help="phases run at the same time, of all stresses and specimens (default: 2)",
+    )
+    run.add_argument("--ranks", metavar="N", type=int, default=1, help="MPI ranks of each phase (default: 1)")
     run.add_argument("--engine", metavar="FILE", type=Path, help="engine (default: lmp_cdem of this Shearbox)")
     run.add_argument("--dry-run", action="store_true", default=False,
                      help="only say what would run, about how long, and how much it would write")  # fmt: skip
@@ -153,9 +165,9 @@ def _run(options: argparse.Namespace) -> None:
 
 
 def _report(options: argparse.Namespace) -> None:
-    from .report import report
+    from .reporting import report_on
 
-    print(f"report: {report(options.folder)}")
+    print(f"report: {report_on(options.folder)}")
 
 
 def _check_dependencies() -> None:

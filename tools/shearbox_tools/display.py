@@ -2,13 +2,14 @@
 """Progress of a run: bars with the time left on a terminal, plain lines elsewhere."""
 
 import time
+from collections.abc import Mapping
 from typing import Protocol
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, SpinnerColumn, TaskID, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.progress import BarColumn, Progress, SpinnerColumn, TaskID, TextColumn, TimeElapsedColumn
 
 SECONDS_BETWEEN_LINES = 30.0
-ENOUGH = 0.005  # of all displacement, for a first estimate of the time left
+ENOUGH = 0.005  # of all work, for a first estimate of the time left
 
 
 class Display(Protocol):
@@ -23,6 +24,9 @@ class Display(Protocol):
     def ended(self, label: str, note: str) -> None:
         """A phase has ended."""
 
+    def given_up(self, labels: list[str]) -> None:
+        """Phases that failed, or cannot begin since another failed."""
+
     def say(self, text: str) -> None:
         """Something else worth a line."""
 
@@ -30,49 +34,88 @@ class Display(Protocol):
         """No more is to be shown."""
 
 
-def make_display(console: Console, total: float, reached: float) -> Display:
-    """A display for shear phases of `total` mm together, of which an earlier run has done `reached`."""
+class Whole:
+    """All phases together: `work` (s) that each is expected to be, by label, and the share of it that is done."""
+
+    def __init__(self, work: Mapping[str, float], shares: Mapping[str, float]) -> None:
+        self._work = dict(work)
+        self._shares = dict(shares)
+        self._begun = time.monotonic()
+        self._done_before = self.done
+
+    @property
+    def total(self) -> float:
+        """Work of all phases that have not been given up."""
+        return sum(self._work.values())
+
+    @property
+    def done(self) -> float:
+        """The part of it that is done."""
+        return sum(work * self._shares.get(label, 0.0) for label, work in self._work.items())
+
+    def reached(self, label: str, share: float) -> None:
+        """A phase has come so far."""
+        self._shares[label] = share
+
+    def give_up(self, labels: list[str]) -> None:
+        """Leave out phases that will not be done."""
+        for label in labels:
+            self._work.pop(label, None)
+
+    def seconds_left(self) -> float | None:
+        """If it goes on at the speed since the beginning; None: it is too early to tell."""
+        done = self.done - self._done_before
+        if done < ENOUGH * self.total or done <= 0:
+            return None
+        return (self.total - self.done) * (time.monotonic() - self._begun) / done
+
+
+def make_display(console: Console, whole: Whole) -> Display:
+    """Bars on a terminal, lines elsewhere."""
     if console.is_terminal:
-        return BarDisplay(console, total, reached)
-    return LineDisplay(console, total, reached)
+        return BarDisplay(console, whole)
+    return LineDisplay(console, whole)
 
 
 class BarDisplay:
-    """A bar for each running phase and one for all shear phases together."""
+    """A bar for each running phase and one for all phases together."""
 
-    def __init__(self, console: Console, total: float, reached: float) -> None:
+    def __init__(self, console: Console, whole: Whole) -> None:
         self._progress = Progress(
             SpinnerColumn(),
             TextColumn("{task.description}"),
             BarColumn(),
             TextColumn("{task.fields[state]}"),
             TimeElapsedColumn(),
-            TextColumn("left"),
-            TimeRemainingColumn(),
             console=console,
-            speed_estimate_period=300,
         )
+        self._whole = whole
         self._tasks: dict[str, TaskID] = {}
-        self._reached: dict[str, float] = {}
-        self._all = self._progress.add_task("all stresses", total=total, state="", start=False)
-        self._progress.update(self._all, completed=reached)
+        self._travels: dict[str, float] = {}
+        self._all = self._progress.add_task("all", state="")
+        self._update()
         self._progress.start()
 
     def started(self, label: str, travel: float | None, reached: float) -> None:
-        self._reached[label] = reached
         self._tasks[label] = self._progress.add_task(label, total=travel, state="")
         if travel is not None:
-            self._progress.start_task(self._all)
+            self._travels[label] = travel
+            self.moved(label, reached)
 
     def moved(self, label: str, displacement: float) -> None:
-        task = self._tasks[label]
-        self._progress.update(task, completed=displacement, state=f"{displacement:.2f} mm", refresh=True)
-        self._progress.update(self._all, advance=displacement - self._reached[label])
-        self._reached[label] = displacement
+        self._progress.update(self._tasks[label], completed=displacement, state=f"{displacement:.2f} mm", refresh=True)
+        self._whole.reached(label, displacement / self._travels[label])
+        self._update()
 
     def ended(self, label: str, note: str) -> None:
+        self._whole.reached(label, 1)
         self._progress.remove_task(self._tasks.pop(label))
+        self._update()
         self.say(f"{label}: {note}")
+
+    def given_up(self, labels: list[str]) -> None:
+        self._whole.give_up(labels)
+        self._update()
 
     def say(self, text: str) -> None:
         self._progress.console.print(text, markup=False, highlight=False)
@@ -81,37 +124,45 @@ class BarDisplay:
         self._progress.remove_task(self._all)
         self._progress.stop()
 
+    def _update(self) -> None:
+        state = _time_left(self._whole)
+        self._progress.update(self._all, total=self._whole.total, completed=self._whole.done, state=state)
+
 
 class LineDisplay:
     """A line when a phase begins or ends, and one every half minute."""
 
-    def __init__(self, console: Console, total: float, reached: float) -> None:
+    def __init__(self, console: Console, whole: Whole) -> None:
         self._console = console
-        self._total = total
-        self._left = total - reached
+        self._whole = whole
+        self._travels: dict[str, float] = {}
         self._positions: dict[str, float] = {}
-        self._start: tuple[float, float] | None = None  # time and what was left when the first phase reported
         self._last_line = time.monotonic()
 
     def started(self, label: str, travel: float | None, reached: float) -> None:
         if travel is not None:
+            self._travels[label] = travel
             self._positions[label] = reached
+            self._whole.reached(label, reached / travel)
         self.say(f"{label}: started")
 
     def moved(self, label: str, displacement: float) -> None:
-        self._left -= displacement - self._positions[label]
         self._positions[label] = displacement
+        self._whole.reached(label, displacement / self._travels[label])
         now = time.monotonic()
-        if self._start is None:
-            self._start = (now, self._left)
         if now - self._last_line >= SECONDS_BETWEEN_LINES:
             self._last_line = now
             where = ", ".join(f"{name} at {mm:.2f} mm" for name, mm in self._positions.items())
-            self.say(f"{where}; {100 * (1 - self._left / self._total):.0f} % of all{self._time_left(now)}")
+            left = _time_left(self._whole)
+            self.say(f"{where}; {100 * self._whole.done / self._whole.total:.0f} % of all{', ' * bool(left)}{left}")
 
     def ended(self, label: str, note: str) -> None:
         self._positions.pop(label, None)
+        self._whole.reached(label, 1)
         self.say(f"{label}: {note}")
+
+    def given_up(self, labels: list[str]) -> None:
+        self._whole.give_up(labels)
 
     def say(self, text: str) -> None:
         self._console.print(text, markup=False, highlight=False, soft_wrap=True)
@@ -119,13 +170,10 @@ class LineDisplay:
     def close(self) -> None:
         pass
 
-    def _time_left(self, now: float) -> str:
-        assert self._start is not None
-        begun, then_left = self._start
-        done = then_left - self._left
-        if done < ENOUGH * self._total:  # the lower half gets up to speed first
-            return ""
-        return f", about {duration(self._left * (now - begun) / done)} left"
+
+def _time_left(whole: Whole) -> str:
+    seconds = whole.seconds_left()
+    return "" if seconds is None else f"about {duration(seconds)} left"
 
 
 def duration(seconds: float) -> str:

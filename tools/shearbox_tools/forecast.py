@@ -6,6 +6,7 @@ models there are; the time of a step from the log of the packing if that is done
 """
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 from .display import duration
@@ -21,12 +22,11 @@ STEPS = {PACK: 150_000, CONSOLIDATE: 10_000}  # for each disc of a grain: 112,00
 
 
 class Forecast:
-    """Of what is left to do of a request in its folder, `jobs` stresses at a time; nothing is written."""
+    """Of what is left to do of a request in its folder; nothing is written."""
 
-    def __init__(self, folder: Path, request: Request, jobs: int) -> None:
+    def __init__(self, folder: Path, request: Request) -> None:
         self._folder = folder
         self._request = request
-        self._jobs = jobs
         self._packing = packing(folder, request)
         self._shearing = [phase for sigma in request.stresses for phase in shearing(folder, request, sigma)]
         self._dt = time_step(request)
@@ -34,52 +34,87 @@ class Forecast:
         self._pace = self._recorded_pace() or SECONDS_PER_DISC_AND_STEP
 
     @property
-    def phases(self) -> str:
-        """A line for the model, each setting, and each phase."""
+    def head(self) -> str:
+        """A line for the model, and one for each setting."""
         request, model = self._request, self._request.model
         return "\n".join(
             [
                 f"{model.name}: {model.ngrains} grains of {model.discs} disc{'s' * (model.discs > 1)}, box "
                 f"{100 * model.width:g} x {200 * model.half_height:g} cm, {request.travel:g} mm at {request.speed:g} mm/s",
                 *(f"{name} = {value}" for name, value in request.settings.items()),
-                *(f"{phase.label}: {self._what(phase)}" for phase in (self._packing, *self._shearing)),
             ]
         )
 
     @property
-    def total(self) -> str:
-        """A line of the time that is left, what it goes by, and the disk that is needed."""
+    def lines(self) -> list[str]:
+        """A line for each phase."""
+        return [f"{phase.label}: {self._what(phase)}" for phase in self.phases]
+
+    @property
+    def phases(self) -> list[Phase]:
+        """All of them, in the order of the work."""
+        return [self._packing, *self._shearing]
+
+    @property
+    def pace(self) -> float:
+        """Seconds a disc and step."""
+        return self._pace
+
+    @property
+    def bytes(self) -> int:
+        """That will be written."""
+        return disk_need(self._request, self._folder)
+
+    @property
+    def seconds(self) -> float:
+        """Time still to go, of all phases one after the other."""
+        return sum(map(self.left, self.phases))
+
+    def seconds_with(self, jobs: int) -> float:
+        """The same with so many phases at a time, on a core each: nothing runs beside the packing."""
         stresses = len(self._request.stresses)
-        share = math.ceil(stresses / self._jobs) / stresses  # jobs run side by side, on a core each
-        seconds = self._seconds(self._packing) + share * sum(map(self._seconds, self._shearing))
-        megabytes = disk_need(self._request, self._folder) / 1e6
-        return (
-            f"about {duration(seconds)} and {megabytes:.0f} MB (an estimate from {self._pace * 1e9:.0f} ns a disc and step, "
-            "good to a factor of 2)"
-        )
+        share = math.ceil(stresses / jobs) / stresses
+        return self.left(self._packing) + share * sum(map(self.left, self._shearing))
+
+    def work(self, phase: Phase) -> float:
+        """Time of a whole phase."""
+        frames = int(read_variables(deck(SHEAR))["frames"]) if phase.name == SHEAR else 0
+        return self._discs * (self._steps(phase) * self._pace + frames * SECONDS_PER_DISC_AND_FRAME)
+
+    def share_done(self, phase: Phase) -> float:
+        """The part of a phase that is done, from 0 to 1."""
+        return 1.0 if phase.done else min(1.0, phase.displacement() / self._request.travel) * (phase.name == SHEAR)
+
+    def left(self, phase: Phase) -> float:
+        """Time still to go."""
+        return (1 - self.share_done(phase)) * self.work(phase)
 
     def _what(self, phase: Phase) -> str:
         if phase.done:
             return "done"
         step = f" of {self._dt:.2g} s" if phase.name == SHEAR else ""
-        return f"about {float(f'{self._steps(phase):.2g}'):,.0f} steps{step}, {duration(self._seconds(phase))}"
-
-    def _seconds(self, phase: Phase) -> float:
-        """Time still to go."""
-        frames = int(read_variables(deck(SHEAR))["frames"]) if phase.name == SHEAR else 0
-        spent = self._steps(phase) * self._pace + frames * SECONDS_PER_DISC_AND_FRAME
-        return 0.0 if phase.done else self._discs * spent
+        steps = (1 - self.share_done(phase)) * self._steps(phase)
+        return f"about {float(f'{steps:.2g}'):,.0f} steps{step}, {duration(self.left(phase))}"
 
     def _steps(self, phase: Phase) -> float:
-        """Steps still to do."""
         if phase.name != SHEAR:
             return self._request.model.discs * STEPS[phase.name]
-        return max(0.0, self._request.travel - phase.displacement()) / self._request.speed / self._dt
+        return self._request.travel / self._request.speed / self._dt
 
     def _recorded_pace(self) -> float | None:
         """Seconds a disc and step of the packing, if it is done."""
         log = read_logs(self._packing.log)
         return log.seconds / log.steps / self._discs if self._packing.done and log.steps else None
+
+
+def total(forecasts: Sequence[Forecast], jobs: int) -> str:
+    """A line of the time that is left for all of them, what it goes by, and the disk that is needed."""
+    seconds = max(sum(f.seconds for f in forecasts) / jobs, *(f.seconds_with(jobs) for f in forecasts), 0.0)
+    paces = sorted({f"{1e9 * f.pace:.0f}" for f in forecasts}, key=float)
+    return (
+        f"about {duration(seconds)} and {sum(f.bytes for f in forecasts) / 1e6:.0f} MB (an estimate from "
+        f"{' to '.join(dict.fromkeys([paces[0], paces[-1]]))} ns a disc and step, good to a factor of 2)"
+    )
 
 
 def time_step(request: Request) -> float:

@@ -28,7 +28,12 @@ def report(folder: Path) -> Path:
 
     Raises ShearboxError after writing when files are damaged, and without writing when there is nothing to report on.
     """
-    results = read_results(folder)
+    return write_report(read_results(folder))
+
+
+def write_report(results: Results) -> Path:
+    """The same of what has been read."""
+    folder = results.folder
     if not results.shears:
         raise ShearboxError(f"{folder}: nothing to report on yet\n" + "\n".join([*results.problems, *results.notes]))
     pictures = _pictures(results)

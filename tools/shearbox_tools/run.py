@@ -3,6 +3,7 @@
 
 import argparse
 import os
+from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -11,38 +12,48 @@ from rich.console import Console
 
 from .campaign import Campaign
 from .checks import check
-from .display import make_display
+from .display import Whole, duration, make_display
 from .engine import PROGRAM, Engine, Failure, free_bytes
 from .errors import InputError, ShearboxError
-from .forecast import Forecast
+from .files import RECORD
+from .forecast import Forecast, total
 from .lock import locked
 from .models import INPUT, PARAMETERS, find_model
 from .parameters import canonical, of_model, read_settings
-from .phases import DECKS, deck, disk_need, shearing
+from .phases import DECKS, deck, shearing
 from .request import OWN_OPTION, Request, check_folder, open_folder, recorded
+from .specimens import Run, check_out, find_runs, planned, read_seeds
 
 SPARE_BYTES = 100_000_000
+OF_A_RUN = ("stress", "accuracy", "speed", "travel", "seed", "seeds", "independent", "law", "dt", "stiffness", "set")
 DEFAULT_STRESSES = (100.0, 200.0, 300.0, 400.0)  # kPa
 
 
 def run(options: argparse.Namespace) -> None:
     """Carry out the command line; raises ShearboxError when something is wrong or has failed."""
-    folder, request = _asked(vars(options))
+    out, runs = _asked(vars(options))
     engine = Engine(getattr(options, "engine", PROGRAM).resolve(), options.ranks)
     console = Console()
-    check(request)
-    _check_machine(min(options.jobs, len(request.stresses)), engine, console)
-    check_folder(folder, request)
-    forecast = Forecast(folder, request, options.jobs)
+    for one in runs:
+        check(one.request)
+    _check_machine(min(options.jobs, sum(len(one.request.stresses) for one in runs)), engine, console)
+    _check_folders(out, runs, vars(options))
+    forecasts = [Forecast(one.folder, one.request) for one in runs]
     if options.dry_run:
-        _say(console, f"{forecast.phases}\nin all {forecast.total}, into {folder}")
+        _say(console, f"{_forecast_text(runs, forecasts)}\nin all {total(forecasts, options.jobs)}, into {out}")
         return
-    _check_disk(folder, request)
-    with locked(folder) as lock:
-        open_folder(folder, request)
-        _say(console, f"left: {forecast.total}")
-        failures = _carry_out(folder, request, engine, options.jobs, console, lock)
-        problems = _report(folder, console) if any(_sheared(folder, request)) else []
+    _check_disk(out, sum(forecast.bytes for forecast in forecasts))
+    with ExitStack() as stack:
+        locks = {folder: stack.enter_context(locked(folder)) for folder in dict.fromkeys([out, *_folders(runs)])}
+        for one in runs:
+            open_folder(one.folder, one.request)
+        _say(console, f"left: {total(forecasts, options.jobs)}")
+        display = make_display(console, _whole(runs, forecasts))
+        try:
+            failures = Campaign(runs, engine, display, locks).run(options.jobs)
+        finally:
+            display.close()
+        problems = _report(out, console) if any(any(_sheared(one)) for one in runs) else []
     if failures:
         problems += [failure.message for failure in failures] + ["The other results are kept."]
     if any(failure.may_pass for failure in failures):
@@ -51,8 +62,37 @@ def run(options: argparse.Namespace) -> None:
         raise ShearboxError("\n".join(problems))
 
 
-def _asked(given: dict[str, Any]) -> tuple[Path, Request]:
+def _asked(given: dict[str, Any]) -> tuple[Path, list[Run]]:
     """The folder, and what is to be in it: as given; what is not is as recorded there, or by default."""
+    if "out" not in given and Path(given["model"]).is_dir() and not (Path(given["model"]) / RECORD).exists():
+        return _ensemble_there(Path(given["model"]), given)
+    folder, request = _one_asked(given)
+    if "seeds" not in given:
+        if "independent" in given:
+            raise InputError("--independent: it is of the specimens of --seeds, which is not given")
+        return folder, [Run(folder, request)]
+    if "seed" in given or "out" not in given:
+        raise InputError(f"--seeds: {'--seed is given, too' if 'seed' in given else 'MODEL and --out are needed'}")
+    independent = "independent" in given
+    seeds = read_seeds(given["seeds"], independent, request.stresses)
+    return folder, planned(folder, request, seeds, independent)
+
+
+def _ensemble_there(folder: Path, given: dict[str, Any]) -> tuple[Path, list[Run]]:
+    """Several runs, each of which goes on as it was asked for."""
+    folders = find_runs(folder)
+    if not folders:
+        raise InputError(f"{folder} holds no run: there is no {RECORD} in it, nor below it")
+    changes = [f"--{name}" for name in given if name in OF_A_RUN]
+    if changes:
+        raise InputError(
+            f"{folder} holds {len(folders)} runs, which go on as they were asked for: leave out {', '.join(changes)}, or "
+            "give MODEL and --out"
+        )
+    return folder, [Run(one, recorded(one), str(one.relative_to(folder))) for one in folders]
+
+
+def _one_asked(given: dict[str, Any]) -> tuple[Path, Request]:
     settings = read_settings(given.get("set", []), OWN_OPTION)
     if "out" in given:
         folder = given["out"]
@@ -74,12 +114,49 @@ def _asked(given: dict[str, Any]) -> tuple[Path, Request]:
     return folder, replace(request, **changes)
 
 
+def _check_folders(out: Path, runs: list[Run], given: dict[str, Any]) -> None:
+    if "seeds" in given:
+        check_out(out, runs)
+        return
+    for one in runs:
+        check_folder(one.folder, one.request)
+
+
+def _folders(runs: list[Run]) -> list[Path]:
+    return [one.folder for one in runs]
+
+
+def _forecast_text(runs: list[Run], forecasts: list[Forecast]) -> str:
+    """Each phase of a single run; of several, a line for each, under that of their model."""
+    if len(runs) == 1:
+        return "\n".join([forecasts[0].head, *forecasts[0].lines])
+    lines: list[str] = []
+    for one, forecast in zip(runs, forecasts):
+        if forecast.head not in lines:
+            lines.append(forecast.head)
+        left = [phase for phase in forecast.phases if not phase.done]
+        what = f"{len(left)} phases, {duration(forecast.seconds)} on a core" if left else "done"
+        stresses = " ".join(f"{sigma:g}" for sigma in one.request.stresses)
+        lines.append(f"{one.name}: seed {one.request.seed}, {stresses} kPa: {what}")
+    return "\n".join(lines)
+
+
+def _whole(runs: list[Run], forecasts: list[Forecast]) -> Whole:
+    phases = [
+        (one.label(phase), forecast, phase) for one, forecast in zip(runs, forecasts) for phase in forecast.phases
+    ]
+    return Whole(
+        {label: forecast.work(phase) for label, forecast, phase in phases},
+        {label: forecast.share_done(phase) for label, forecast, phase in phases},
+    )
+
+
 def _report(folder: Path, console: Console) -> list[str]:
     """Report, and say where; what is wrong with it is returned."""
-    from .report import report  # with its libraries a second of loading, which a refusal need not wait for
+    from .reporting import report_on  # with its libraries a second of loading, which a refusal need not wait for
 
     try:
-        page = report(folder)
+        page = report_on(folder)
     except ShearboxError as error:
         return [str(error)]
     _say(console, f"report: {page}")
@@ -90,18 +167,9 @@ def _say(console: Console, text: str) -> None:
     console.print(text, markup=False, highlight=False, soft_wrap=True)
 
 
-def _carry_out(folder: Path, request: Request, engine: Engine, jobs: int, console: Console, lock: int) -> list[Failure]:
-    reached = sum(min(s, request.travel) for s in _sheared(folder, request))
-    display = make_display(console, request.travel * len(request.stresses), reached)
-    try:
-        return Campaign(folder, request, engine, display, lock).run(jobs)
-    finally:
-        display.close()
-
-
-def _sheared(folder: Path, request: Request) -> list[float]:
+def _sheared(one: Run) -> list[float]:
     """Displacement (mm) that each stress has reached."""
-    return [shearing(folder, request, sigma)[1].displacement() for sigma in request.stresses]
+    return [shearing(one.folder, one.request, sigma)[1].displacement() for sigma in one.request.stresses]
 
 
 def _check_machine(jobs: int, engine: Engine, console: Console) -> None:
@@ -117,7 +185,7 @@ def _check_machine(jobs: int, engine: Engine, console: Console) -> None:
         console.print(f"note: {jobs} jobs of {engine.ranks} ranks share {cores} cores: fewer would be faster")
 
 
-def _check_disk(folder: Path, request: Request) -> None:
-    need, free = disk_need(request, folder) + SPARE_BYTES, free_bytes(folder)
+def _check_disk(folder: Path, need: int) -> None:
+    need, free = need + SPARE_BYTES, free_bytes(folder)
     if free < need:
         raise InputError(f"--out {folder}: about {need / 1e6:.0f} MB will be written, {free / 1e6:.0f} MB are free")

@@ -17,7 +17,7 @@ from .results import Results
 from .shear import Shear
 from .strength import COVERAGE
 from .stress_dilatancy import Dilatant
-from .verdict import Verdict
+from .verdict import Verdict, of_all
 
 DIGITS = 6
 
@@ -44,7 +44,7 @@ def summarise(results: Results) -> dict[str, Any]:
         "versions": _versions(results),
         "parameters": {**identity["parameters"], **{k: v for k, v in identity.items() if k.startswith("model ")}},
     }
-    return _plain(summary)
+    return plain(summary)
 
 
 def _strength(results: Results) -> dict[str, Any]:
@@ -133,17 +133,8 @@ def _criteria(results: Results) -> dict[str, Any]:
     """What is judged of all stresses together, and what must hold for every stress."""
     criteria = {"proportional": _verdict(results.proportional)}
     for name in ("dilates", "peak_at_steepest_dilatancy", "quasi_static"):
-        criteria[name] = _verdict(_of_all([(s.sigma, s.verdicts[name].holds) for s in results.shears]))
+        criteria[name] = _verdict(of_all([(s.sigma, s.verdicts[name].holds) for s in results.shears]))
     return criteria
-
-
-def _of_all(judged: list[tuple[float, bool | None]]) -> Verdict:
-    failed, open_ = ([f"{sigma:g} kPa" for sigma, holds in judged if holds is what] for what in (False, None))
-    if failed:
-        return Verdict(False, f"not at {', '.join(failed)}")
-    if open_ or not judged:
-        return Verdict(None, f"cannot be judged at {', '.join(open_) or 'any stress'}")
-    return Verdict(True, f"at all {len(judged)} stresses" if len(judged) > 1 else f"at {judged[0][0]:g} kPa")
 
 
 def _verdict(verdict: Verdict) -> dict[str, Any]:
@@ -180,12 +171,12 @@ def _versions(results: Results) -> dict[str, str | None]:
     }
 
 
-def _plain(value: Any) -> Any:
+def plain(value: Any) -> Any:
     """The same as JSON knows it: numbers rounded to what they are worth, no NaN."""
     if isinstance(value, Mapping):
-        return {str(key): _plain(item) for key, item in value.items()}
+        return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_plain(item) for item in value]
+        return [plain(item) for item in value]
     if isinstance(value, (float, np.floating)):
         return float(f"{value:.{DIGITS}g}") if np.isfinite(value) else None
     return value

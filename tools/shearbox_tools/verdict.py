@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What is judged by rule: whether it holds, and the numbers that say so, with as many digits as it takes to see it."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 MOST_DIGITS = 15
@@ -16,6 +17,16 @@ class Verdict:
     def in_doubt(self, doubt: str | None) -> "Verdict":
         """The same, or where there is a doubt about what it is judged by: not judged, with the numbers so far."""
         return Verdict(None, f"{doubt}; so far {self.reason}") if doubt else self
+
+
+def of_all(judged: Sequence[tuple[float, bool | None]]) -> Verdict:
+    """What must hold at every stress (kPa)."""
+    failed, open_ = ([f"{sigma:g} kPa" for sigma, holds in judged if holds is what] for what in (False, None))
+    if failed:
+        return Verdict(False, f"not at {', '.join(failed)}")
+    if open_ or not judged:
+        return Verdict(None, f"cannot be judged at {', '.join(open_) or 'any stress'}")
+    return Verdict(True, f"at all {len(judged)} stresses" if len(judged) > 1 else f"at {judged[0][0]:g} kPa")
 
 
 def told_apart(value: float, limit: float, digits: int, sign: str = "") -> str:

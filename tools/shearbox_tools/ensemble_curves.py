@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Diagrams of ensembles. A stress has a diagram of its own, and all of them the same scales: bands would hide each other."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from .ensemble_results import Ensemble
+from .mean_curve import Band, MeanCurve
+from .style import RC, as_uri, colours
+
+SIZE = (3.6, 2.9)  # inches
+POINTS = 400  # of a line, at most
+MARGIN = 0.06  # of a scale, above and below what is shown
+INK = "#23282e"
+
+Limits = tuple[float, float]
+
+
+def draw_ensembles(ensembles: Sequence[Ensemble]) -> list[dict[str, str]]:
+    """For each ensemble its diagrams, SVG as data: URIs: 'stress SIGMA', 'lid SIGMA', 'strength'."""
+    every = [curve for ensemble in ensembles for curve in ensemble.curves.values()]
+    ratio = _limits([(curve.tau, curve.sigma) for curve in every], 0.0)
+    lid = _limits([(curve.lid, 1.0) for curve in every], 0.0)
+    drawn = []
+    with rc_context(RC):
+        for ensemble in ensembles:
+            pictures = {"strength": as_uri(_strength(ensemble), "svg")}
+            palette = colours(list(ensemble.curves))
+            for sigma, curve in ensemble.curves.items():
+                stress = _curve(curve, curve.tau, sigma, "τ/σ (–)", palette[sigma], ratio)
+                pictures[f"stress {sigma:g}"] = as_uri(stress, "svg")
+                rise = _curve(curve, curve.lid, 1.0, "lid, up (mm)", palette[sigma], lid)
+                pictures[f"lid {sigma:g}"] = as_uri(rise, "svg")
+            drawn.append(pictures)
+    return drawn
+
+
+def _limits(bands: Sequence[tuple[Band, float]], include: float) -> Limits:
+    """A scale on which all of them are seen, each over its number."""
+    ends = [
+        edge / over
+        for band, over in bands
+        for edge in (band.mean - np.nan_to_num(band.deviation), band.mean + np.nan_to_num(band.deviation))
+    ]
+    low, high = min(include, *(end.min() for end in ends)), max(include, *(end.max() for end in ends))
+    return low - MARGIN * (high - low), high + MARGIN * (high - low)
+
+
+def _axes(x: str, y: str) -> tuple[Figure, Axes]:
+    figure = Figure(figsize=SIZE, layout="constrained")
+    axes = figure.add_subplot()
+    axes.set(xlabel=x, ylabel=y)
+    return figure, axes
+
+
+def _curve(curve: MeanCurve, band: Band, over: float, name: str, colour: str, limits: Limits) -> Figure:
+    """Mean with both bands; light is the scatter of specimens, dark the error of the mean."""
+    figure, axes = _axes("shear displacement (mm)", name)
+    rows = slice(None, None, -(-len(curve.displacement) // POINTS))
+    s, mean = curve.displacement[rows], band.mean[rows] / over
+    if curve.count > 1:
+        for half, alpha, label in (
+            (band.deviation, 0.18, "± standard deviation of specimens"),
+            (band.error, 0.45, "± standard error of the mean"),
+        ):
+            width = half[rows] / over
+            axes.fill_between(s, mean - width, mean + width, color=colour, alpha=alpha, lw=0, label=label)
+    axes.plot(s, mean, color=INK, lw=1.1, label=f"mean of {curve.count}" if curve.count > 1 else "one specimen")
+    axes.axhline(0, color="#8a929b", lw=0.8)
+    axes.set(xlim=(0, s[-1]), ylim=limits)
+    axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), fontsize=7, title=f"{curve.sigma:g} kPa", alignment="left")
+    return figure
+
+
+def _strength(ensemble: Ensemble) -> Figure:
+    """Peaks of all specimens, their means, and the mean line where there is one."""
+    figure, axes = _axes("normal stress σ (kPa)", "peak shear stress τ (kPa)")
+    palette = colours(list(ensemble.shears))
+    end = 1.12 * max(ensemble.shears)
+    for sigma, shears in ensemble.shears.items():
+        peaks = [shear.peak.value for shear in shears]
+        axes.plot([sigma] * len(peaks), peaks, "o", ms=4, mfc="none", mec=palette[sigma], alpha=0.8)
+        axes.plot(sigma, np.mean(peaks), "_", ms=16, mew=2, color=palette[sigma])
+    axes.plot([], [], "o", ms=4, mfc="none", mec=INK, label="peak of a specimen")
+    axes.plot([], [], "_", ms=14, mew=2, color=INK, label="mean of the peaks")
+    if ensemble.strength:
+        s, phi, c = np.array([0, end]), ensemble.strength.phi_deg, ensemble.strength.c_kPa
+        label = f"φ = {phi.value:.1f}° [{phi.low:.1f}, {phi.high:.1f}], c = {c.value:.1f} kPa".replace("-", "−")
+        axes.plot(s, c.value + s * np.tan(np.radians(phi.value)), color="#555d66", lw=1.3, label=label)
+    axes.set_xlim(0, end)
+    axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
+    axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), fontsize=7, alignment="left")
+    return figure

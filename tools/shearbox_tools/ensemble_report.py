@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The report on many runs: report.html, summary.json, a table of mean curves for each ensemble; and each run's own."""
+
+from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
+from os import sched_getaffinity
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+from .ensemble_curves import draw_ensembles
+from .ensemble_results import Ensemble
+from .ensemble_summary import summarise_all
+from .errors import ShearboxError
+from .files import PAGE, SUMMARY, write_json, write_text
+from .grouping import LeftOut, put_together
+from .mean_curve import as_csv
+from .report import TEMPLATES, minus, number, write_report
+from .results import Results, read_results
+
+
+def report_on_runs(folder: Path, runs: Sequence[Path], others: Sequence[Results]) -> Path:
+    """Write the report on the folder of runs, and that of each; `others` have none of their own. Its path is returned.
+
+    Raises ShearboxError after writing if files are damaged, and without writing if no run is complete.
+    """
+    read, unread = _read_all(runs)
+    ensembles, incomplete = put_together([*read, *others])
+    left_out = [*unread, *incomplete]
+    if not ensembles:
+        reasons = [f"{one.folder}: {one.reason}" for one in left_out]
+        raise ShearboxError(f"{folder}: no specimen is complete yet\n" + "\n".join(reasons))
+    tables = ["curves.csv"] if len(ensembles) == 1 else [f"curves_{k + 1}.csv" for k in range(len(ensembles))]
+    for table, ensemble in zip(tables, ensembles):
+        write_text(folder / table, as_csv(list(ensemble.curves.values())))
+    summary = summarise_all(folder, ensembles, left_out, tables)
+    write_json(folder / SUMMARY, summary)
+    page = folder / PAGE
+    write_text(page, _page(folder, summary, ensembles))
+    problems = [one.reason for one in unread] + [problem for run in read for problem in run.problems]
+    if problems:
+        raise ShearboxError(f"{page} is written, but not all files can be read:\n" + "\n".join(problems))
+    return page
+
+
+def _read_all(folders: Sequence[Path]) -> tuple[list[Results], list[LeftOut]]:
+    """Read runs and write their own reports, as many at a time as there are cores."""
+    read: list[Results] = []
+    unread: list[LeftOut] = []
+    with ProcessPoolExecutor(len(sched_getaffinity(0))) as pool:
+        for folder, result in zip(folders, pool.map(_read_one, folders)):
+            if isinstance(result, Results):
+                read.append(result)
+            else:
+                unread.append(LeftOut(folder, result))
+    return read, unread
+
+
+def _read_one(folder: Path) -> Results | str:
+    """A run, of which a report is written if there is anything to report on; or why it cannot be read."""
+    try:
+        results = read_results(folder)
+    except ShearboxError as error:
+        return str(error)
+    try:
+        if results.shears:
+            write_report(results)
+    except ShearboxError as error:
+        if not results.problems:  # these are told with the ensemble
+            return str(error)
+    return results
+
+
+def _page(folder: Path, summary: dict[str, Any], ensembles: Sequence[Ensemble]) -> str:
+    environment = Environment(
+        loader=FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["number"] = number
+    environment.filters["minus"] = minus
+    return environment.get_template("ensemble.html.j2").render(
+        summary=summary, pictures=draw_ensembles(ensembles), name=folder.resolve().name
+    )

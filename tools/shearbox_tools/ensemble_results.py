@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""An ensemble: complete specimens that differ only in their packings, analysed together."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from .ensemble import EnsembleStrength, Estimate, as_angle, mean_of, strength_of_independent, strength_of_shared
+from .features import peak_at_steepest, proportional
+from .mean_curve import MeanCurve, average
+from .peak import Peak
+from .results import Results
+from .shear import Shear
+from .strength import fit_line
+from .stress_dilatancy import Dilatant
+from .verdict import Verdict, of_all, told_apart
+
+FEATURES = ("proportional", "dilates", "peak_at_steepest_dilatancy", "quasi_static")
+SHARED, INDEPENDENT = "shared packings", "independent packings"
+RELATIONS: dict[str, Callable[[Dilatant], float | None]] = {
+    "rowe": lambda state: state.critical_by_rowe_deg,
+    "bolton": lambda state: state.critical_by_bolton_deg,
+}
+
+
+@dataclass(frozen=True)
+class Ensemble:
+    """At least one specimen, each complete; a stress may be missing in some."""
+
+    specimens: Sequence[Results]
+
+    @property
+    def identity(self) -> dict[str, Any]:
+        """That of its first specimen; others have another seed."""
+        return self.specimens[0].identity
+
+    @property
+    def count(self) -> int:
+        """Specimens."""
+        return len(self.specimens)
+
+    @cached_property
+    def shears(self) -> dict[float, list[Shear]]:
+        """By stress (kPa), in order."""
+        every = [shear for specimen in self.specimens for shear in specimen.shears]
+        return {sigma: [s for s in every if s.sigma == sigma] for sigma in sorted({s.sigma for s in every})}
+
+    @cached_property
+    def curves(self) -> dict[float, MeanCurve]:
+        """Means over the specimens, by stress."""
+        return {sigma: average(shears) for sigma, shears in self.shears.items()}
+
+    @property
+    def independent(self) -> bool:
+        """Whether each stress of each specimen has a packing of its own."""
+        return all(len(specimen.shears) == 1 for specimen in self.specimens) and len(self.shears) > 1
+
+    @property
+    def common(self) -> list[float]:
+        """Stresses that all specimens have."""
+        return [sigma for sigma, shears in self.shears.items() if len(shears) == self.count]
+
+    @property
+    def model(self) -> str:
+        """Which model of ensemble.py holds."""
+        return INDEPENDENT if self.independent else SHARED
+
+    @property
+    def doubts(self) -> list[str]:
+        """Why there is no strength of the ensemble, if so."""
+        doubts = [f"{run.folder}: {doubt}" for run in self.specimens for doubt in run.doubts]
+        if self.independent and self.count < 3:
+            doubts.append(f"{self.count} peaks: at least 3 are needed")
+        elif not self.independent and self.count < 2:
+            doubts.append("one specimen: how others differ is not in it")
+        if not self.independent and len(self.common) < 2:
+            doubts.append(f"stresses that all specimens have: {len(self.common)}; at least 2 are needed")
+        return doubts
+
+    @cached_property
+    def strength(self) -> EnsembleStrength | None:
+        """By the peaks of the polynomials."""
+        return self._strength(lambda shear: shear.peak)
+
+    @cached_property
+    def smoothed_strength(self) -> EnsembleStrength | None:
+        """By those of the smoothed data."""
+        return self._strength(lambda shear: shear.smoothed)
+
+    def _strength(self, peak: Callable[[Shear], Peak]) -> EnsembleStrength | None:
+        if self.doubts:
+            return None
+        if self.independent:
+            points = np.array([(s.sigma, peak(s).value) for shears in self.shears.values() for s in shears])
+            return strength_of_independent(*points.T)
+        tau = np.array([[peak(shear).value for shear in self.shears[sigma]] for sigma in self.common]).T
+        return strength_of_shared(np.array(self.common), tau)
+
+    @cached_property
+    def ultimate_angle(self) -> Estimate | None:
+        """Angle (degrees) whose tangent is the mean of tau / sigma at the end of the travel."""
+        mean = self.over_specimens(lambda shear: shear.at_end.ratio)
+        return None if mean is None else as_angle(mean)
+
+    def over_specimens(self, value: Callable[[Shear], float | None]) -> Estimate | None:
+        """Mean over specimens of the mean over their stresses; None of a single specimen, or where it cannot be told."""
+        every = [[value(shear) for shear in specimen.shears] for specimen in self.specimens]
+        return estimate([None if None in row else float(np.mean(np.array(row, float))) for row in every])
+
+    def change_of_critical(self, relation: str) -> Estimate | None:
+        """phi_cv of the peak less that of the end (degrees) by 'rowe' or 'bolton': 0 where the relation holds."""
+        by = RELATIONS[relation]
+
+        def change(shear: Shear) -> float | None:
+            peak, end = by(shear.at_peak), by(shear.at_end)
+            return None if peak is None or end is None else peak - end
+
+        return self.over_specimens(change)
+
+    def share(self, feature: str) -> tuple[int, int]:
+        """Specimens in which a feature holds, and those in which it can be judged; all stresses of one count together."""
+        judged = [holds for holds in (holds_in(run, feature) for run in self.specimens) if holds is not None]
+        return sum(judged), len(judged)
+
+    @cached_property
+    def verdicts(self) -> dict[str, Verdict]:
+        """The features of the mean curves and mean peaks, all stresses together."""
+        by_stress = {
+            name: [(sigma, v[name].holds) for sigma, v in self.verdicts_by_stress.items()] for name in FEATURES[1:]
+        }
+        return {"proportional": self._proportional()} | {name: of_all(judged) for name, judged in by_stress.items()}
+
+    @cached_property
+    def verdicts_by_stress(self) -> dict[float, dict[str, Verdict]]:
+        """Those that can be judged at one stress."""
+        return {
+            sigma: {
+                "dilates": _dilates(self.shears[sigma]),
+                "peak_at_steepest_dilatancy": peak_at_steepest(curve.tau_fit, curve.peak, curve.lid_fit),
+                "quasi_static": of_all_specimens([s.verdicts["quasi_static"].holds for s in self.shears[sigma]]),
+            }
+            for sigma, curve in self.curves.items()
+        }
+
+    def _proportional(self) -> Verdict:
+        """Of the means of the peaks, with the weights of the model: 1 / sigma^2."""
+        sigma = np.array(list(self.shears))
+        peaks = np.array([np.mean([shear.peak.value for shear in shears]) for shears in self.shears.values()])
+        return proportional(sigma, peaks, fit_line(sigma, peaks, sigma) if len(sigma) > 1 else None)
+
+
+def estimate(values: Sequence[float | None]) -> Estimate | None:
+    """Mean over specimens with its interval; None of a single one, or where a value is missing."""
+    known = [value for value in values if value is not None]
+    return mean_of(np.array(known)) if len(known) == len(values) > 1 else None
+
+
+def holds_in(run: Results, feature: str) -> bool | None:
+    """Whether a feature holds in a specimen, at all its stresses; None: cannot be judged."""
+    if feature == "proportional":
+        return run.proportional.holds
+    return of_all([(shear.sigma, shear.verdicts[feature].holds) for shear in run.shears]).holds
+
+
+def of_all_specimens(judged: Sequence[bool | None]) -> Verdict:
+    """What holds for an ensemble if it holds for each of its specimens."""
+    share = f"in {sum(holds is True for holds in judged)} of {len(judged)} specimens"
+    return Verdict(None if None in judged and False not in judged else all(judged), share)
+
+
+def _dilates(shears: Sequence[Shear]) -> Verdict:
+    """Feature 2 on the ensemble: where tau is at its peak the lid's mean is above its start, by the interval of the mean.
+
+    A single specimen is judged by its own curve.
+    """
+    rise = estimate([float(shear.lid.series(shear.peak.position)) for shear in shears])
+    if rise is None:
+        return shears[0].verdicts["dilates"]
+    reason = (
+        f"lid at the peak {rise.value:+.3f} mm, 95 % interval of the mean from {told_apart(float(rise.low), 0, 3, '+')} (> 0) "
+        f"to {rise.high:+.3f} mm"
+    )
+    return Verdict(bool(rise.low > 0), reason)

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs put together to ensembles: those that differ only in their seeds and stresses."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from .ensemble_results import Ensemble
+from .parameters import canonical
+from .results import Results
+
+UNITS = {"speed_mm_s": ("speed", " mm/s"), "travel_mm": ("travel", " mm")}
+
+
+@dataclass(frozen=True)
+class LeftOut:
+    """A run that is in no ensemble, and why."""
+
+    folder: Path
+    reason: str
+
+
+def put_together(runs: Iterable[Results]) -> tuple[list[Ensemble], list[LeftOut]]:
+    """Ensembles in order of their first runs. Incomplete and damaged runs are left out, and a packing that is there
+    already: it is no specimen more."""
+    groups: dict[tuple[tuple[str, str], ...], list[Results]] = {}
+    left_out = []
+    for run in runs:
+        if not run.complete:
+            left_out.append(LeftOut(run.folder, "; ".join([*run.problems, *run.doubts])))
+            continue
+        group = groups.setdefault(tuple(sorted(settings_of(run.identity).items())), [])
+        same = next((other for other in group if other.identity["seed"] == run.identity["seed"]), None)
+        if same:
+            left_out.append(LeftOut(run.folder, f"the same packing as {same.folder}: seed {run.identity['seed']}"))
+        else:
+            group.append(run)
+    return [Ensemble(group) for group in groups.values()], left_out
+
+
+def settings_of(identity: Mapping[str, Any]) -> dict[str, str]:
+    """All that a run was asked for but its seed, as text that is the same for the same value."""
+    flat = {name: value for name, value in identity.items() if name not in ("parameters", "seed")}
+    return {name: canonical(str(value)) for name, value in (flat | identity["parameters"]).items()}
+
+
+def what_differs(ensembles: Sequence[Ensemble]) -> list[str]:
+    """For each ensemble what tells it from others of the same model."""
+    settings = [settings_of(ensemble.identity) for ensemble in ensembles]
+    names = [
+        name
+        for name in dict.fromkeys(name for one in settings for name in one)
+        if not name.startswith("model") and len({one.get(name) for one in settings}) > 1
+    ]
+    return [", ".join(_named(name, one.get(name, "–")) for name in names) for one in settings]
+
+
+def _named(name: str, value: str) -> str:
+    shown, unit = UNITS.get(name, (name, ""))
+    return f"{shown} {value}{unit}"
