@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Stands in for lmp_cdem: takes its command line and writes what the decks write, with known curves.
 
-FAKE_SECONDS: how long a shear phase takes; FAKE_FAIL: folder name of a stress (or 'packed') that fails half way;
+FAKE_SECONDS: how long a shear phase takes; FAKE_FAIL: end of the folder of a phase that fails half way ('200', 'packed',
+'seed_2/packed');
 FAKE_DIARY: file that gets a line when an engine starts, and from which restart file, and ends.
 """
 
@@ -52,7 +53,7 @@ def consolidate(variables: dict[str, str], _: Path) -> None:
 
 def shear(variables: dict[str, str], log: Path) -> None:
     travel, sigma = float(variables["travel"]), float(variables["sigma"])
-    columns = synthetic.curves(sigma, travel, ROWS)
+    columns = synthetic.curves(sigma, travel, ROWS, int(variables["seed"]))
     table = Path("shear.dat")
     begin = 0
     if "from" in variables:
@@ -90,16 +91,22 @@ def bed(name: str, **more: float) -> None:
 
 
 def fail_if_asked(log: Path) -> None:
-    if os.environ.get("FAKE_FAIL") == Path.cwd().name:
+    if Path.cwd().match(os.environ.get("FAKE_FAIL", "nothing")):
         with log.open("a", encoding="utf-8") as stream:
             stream.write("ERROR: Lost atoms: original 350 current 349 (src/thermo.cpp:439)\nLast command: run 100\n")
         sys.exit(1)
 
 
+def place() -> str:
+    """The folder of the phase, with that of its specimen if it is one of several."""
+    folder = Path.cwd()
+    return f"{folder.parent.name}/{folder.name}" if folder.parent.name.startswith("seed_") else folder.name
+
+
 def diary(event: str, phase: str, restart: str = "") -> None:
     if "FAKE_DIARY" in os.environ:
         with open(os.environ["FAKE_DIARY"], "a", encoding="utf-8") as stream:
-            stream.write(f"{event} {phase} {Path.cwd().name} {restart}".rstrip() + "\n")
+            stream.write(f"{event} {phase} {place()} {restart}".rstrip() + "\n")
 
 
 if __name__ == "__main__":

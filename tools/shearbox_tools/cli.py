@@ -131,14 +131,34 @@ def _stress(text: str) -> float:
         raise argparse.ArgumentTypeError(f"{text!r} is not a number of kPa.{hint}") from None
 
 
+def _speed(text: str) -> float:
+    try:
+        speed = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of mm/s") from None
+    if not 0.001 <= speed <= 1000:
+        raise argparse.ArgumentTypeError(f"{text}: 0.001 to 1000 mm/s are expected")
+    return speed
+
+
 def _add_report(commands: Commands) -> None:
     report = commands.add_parser(
         "report",
         help="analyse a folder of results",
         description="Analyse the results in DIR, also incomplete ones: writes summary.json, STRESS/curve.csv and "
-        "report.html, which opens in any browser without a network.",
+        "report.html, which opens in any browser without a network. Of a folder of several runs, wherever they are in it: "
+        "those that differ only in seed and stresses are an ensemble, with mean curves in curves.csv; each run has its own "
+        "report, too. Tests that were run with the decks by hand are folders with a shear.dat, and the engine's log beside it.",
     )
-    report.add_argument("folder", metavar="DIR", type=Path, help="folder given to 'shearbox run --out'")
+    report.add_argument(
+        "folder", metavar="DIR", type=Path, help="folder given to 'shearbox run --out', or above several"
+    )
+    report.add_argument(
+        "--model", metavar="MODEL", help="of tests run by hand whose log is lost: name or file of the model"
+    )
+    report.add_argument(
+        "--speed", metavar="V", type=_speed, help="of tests run by hand, where no log tells it: shear speed, mm/s"
+    )
     report.set_defaults(command=_report)
 
 
@@ -167,7 +187,7 @@ def _run(options: argparse.Namespace) -> None:
 def _report(options: argparse.Namespace) -> None:
     from .reporting import report_on
 
-    print(f"report: {report_on(options.folder)}")
+    print(f"report: {report_on(options.folder, options.model, options.speed)}")
 
 
 def _check_dependencies() -> None:

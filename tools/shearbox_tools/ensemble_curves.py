@@ -72,7 +72,9 @@ def _curve(curve: MeanCurve, band: Band, over: float, name: str, colour: str, li
     axes.plot(s, mean, color=INK, lw=1.1, label=f"mean of {curve.count}" if curve.count > 1 else "one specimen")
     axes.axhline(0, color="#8a929b", lw=0.8)
     axes.set(xlim=(0, s[-1]), ylim=limits)
-    axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), fontsize=7, title=f"{curve.sigma:g} kPa", alignment="left")
+    axes.legend(
+        loc="lower left", bbox_to_anchor=(-0.02, 1.0), fontsize=7, title=f"{curve.sigma:g} kPa", alignment="left"
+    )
     return figure
 
 

@@ -20,13 +20,17 @@ from .report import TEMPLATES, minus, number, write_report
 from .results import Results, read_results
 
 
-def report_on_runs(folder: Path, runs: Sequence[Path], others: Sequence[Results]) -> Path:
-    """Write the report on the folder of runs, and that of each; `others` have none of their own. Its path is returned.
+def report_on_runs(
+    folder: Path, runs: Sequence[Path], others: Sequence[Results] = (), damaged: Sequence[LeftOut] = ()
+) -> Path:
+    """Write the report on the folder of runs, and that of each; `others`, of which some are damaged, have none of their
+    own. Its path is returned.
 
     Raises ShearboxError after writing if files are damaged, and without writing if no run is complete.
     """
     read, unread = _read_all(runs)
     ensembles, incomplete = put_together([*read, *others])
+    unread += damaged
     left_out = [*unread, *incomplete]
     if not ensembles:
         reasons = [f"{one.folder}: {one.reason}" for one in left_out]

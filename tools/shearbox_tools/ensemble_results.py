@@ -174,7 +174,7 @@ def of_all_specimens(judged: Sequence[bool | None]) -> Verdict:
 def _dilates(shears: Sequence[Shear]) -> Verdict:
     """Feature 2 on the ensemble: where tau is at its peak the lid's mean is above its start, by the interval of the mean.
 
-    A single specimen is judged by its own curve.
+    It is open where the interval holds 0. A single specimen is judged by its own curve.
     """
     rise = estimate([float(shear.lid.series(shear.peak.position)) for shear in shears])
     if rise is None:
@@ -183,4 +183,4 @@ def _dilates(shears: Sequence[Shear]) -> Verdict:
         f"lid at the peak {rise.value:+.3f} mm, 95 % interval of the mean from {told_apart(float(rise.low), 0, 3, '+')} (> 0) "
         f"to {rise.high:+.3f} mm"
     )
-    return Verdict(bool(rise.low > 0), reason)
+    return Verdict(None if rise.low <= 0 < rise.high else bool(rise.low > 0), reason)

@@ -3,18 +3,30 @@
 
 from pathlib import Path
 
+from .by_hand import read_by_hand
 from .ensemble_report import report_on_runs
-from .errors import ShearboxError
-from .files import RECORD
+from .errors import InputError, ShearboxError
+from .files import RECORD, SHEAR_TABLE
 from .report import report
 from .specimens import find_runs
 
 
-def report_on(folder: Path) -> Path:
-    """Write the report of a folder, whose path is returned."""
+def report_on(folder: Path, model: str | None = None, speed: float | None = None) -> Path:
+    """Write the report of a folder, whose path is returned; model and speed (mm/s) are for tests run by hand."""
     if (folder / RECORD).exists():
+        _refuse_options(folder, model, speed)
         return report(folder)
-    runs = find_runs(folder)
-    if not runs:
-        raise ShearboxError(f"{folder} holds no run: there is no {RECORD} in it, nor below it")
-    return report_on_runs(folder, runs, [])
+    found = find_runs(folder, (RECORD, SHEAR_TABLE))
+    if not found:
+        raise ShearboxError(f"{folder} holds no run: there is no {RECORD} and no {SHEAR_TABLE} in it, nor below it")
+    runs = [place for place in found if (place / RECORD).exists()]
+    by_hand = [place for place in found if place not in runs]
+    if not by_hand:
+        _refuse_options(folder, model, speed)
+    return report_on_runs(folder, runs, *read_by_hand(by_hand, model, speed))
+
+
+def _refuse_options(folder: Path, model: str | None, speed: float | None) -> None:
+    for option, value in (("--model", model), ("--speed", speed)):
+        if value is not None:
+            raise InputError(f"{option} {value}: {RECORD} tells it of what is in {folder}")

@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Tests that were run with the decks by hand: what they are of is told by the engine's log, or by an option.
+
+LAMMPS logs each command as it is written, and then with its variables' values; the value of a variable that -var set is
+in no line of its own. So everything is taken from commands that act.
+"""
+
+import os
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .errors import InputError, ShearboxError
+from .files import CONSOLIDATED_TABLE, PACKED_TABLE, SHEAR_TABLE, log_file
+from .grouping import LeftOut
+from .models import PARAMETERS, Model, find_model, read_variables
+from .motion import full_speed
+from .numerals import numeral
+from .phases import CONSOLIDATE, SHEAR
+from .polynomial import FEWEST_ROWS
+from .readers import Columns, read_row, read_shear
+from .results import Results
+from .shear import Shear, analyse
+
+UNKNOWN = "unknown"
+ANY_DECK = "log.lammps"  # LAMMPS's name for a log; the last deck's is left
+SPEED = "speed_mm_s"
+_NUMBER = r"([-+.\de]+)"
+_COMMANDS = {
+    "model": r"include +\$\{models\}/\$\{model\}\.in\n(?:include .*\$.*\n)*include +(\S+)",
+    "lower": rf"fix +lower lower cdem/move speed {_NUMBER} ramp {_NUMBER} stop {_NUMBER}",
+    "lid": rf"fix +lid +lid +cdem/lid stress {_NUMBER} width {_NUMBER} thickness {_NUMBER}",
+    "contact": rf"pair_coeff +1 1 {_NUMBER} {_NUMBER} {_NUMBER} {_NUMBER} {_NUMBER}",
+    "law": r"pair_style +cdem law (\w+)",
+    "packed": r"read_restart +(\S*packed\S*)",
+}
+
+
+@dataclass(frozen=True)
+class Test:
+    """One stress, in the folder of its shear.dat."""
+
+    folder: Path
+    identity: dict[str, Any]
+    model_file: Path
+    shear: Shear
+    packing: dict[str, float] | None
+    notes: list[str] = field(default_factory=list)
+
+
+def read_by_hand(
+    folders: Iterable[Path], model: str | None, speed: float | None
+) -> tuple[list[Results], list[LeftOut]]:
+    """The tests in the folders, those of one packing together, and what cannot be read.
+
+    model takes the place of what logs tell, speed (mm/s) is for tests without a log. InputError where they are needed.
+    """
+    together: list[list[Test]] = []
+    left_out = []
+    for folder in folders:
+        try:
+            test = _read(folder, model, speed)
+        except InputError:
+            raise
+        except ShearboxError as error:
+            left_out.append(LeftOut(folder, str(error)))
+            continue
+        for specimen in together:
+            if _may_join(specimen, test):
+                specimen.append(test)
+                break
+        else:
+            together.append([test])
+    packings = [tests[0].packing for tests in together]
+    numbers = [packings.index(packing) if packing else number for number, packing in enumerate(packings)]
+    return [_results(tests, number) for tests, number in zip(together, numbers)], left_out
+
+
+def _may_join(tests: Sequence[Test], test: Test) -> bool:
+    """Whether it is another stress of the same packing, as far as is known; of an unknown one it is taken to be."""
+    first = tests[0]
+    another = all(other.shear.sigma != test.shear.sigma for other in tests)
+    return another and first.identity == test.identity and first.packing == test.packing
+
+
+def _results(tests: Sequence[Test], number: int) -> Results:
+    tests = sorted(tests, key=lambda test: test.shear.sigma)
+    first = tests[0]
+    notes = [f"{test.folder.name}: {note}" for test in tests for note in [*test.notes, *test.shear.notes]]
+    if first.packing is None:
+        notes.append(f"no {PACKED_TABLE} tells of which packing it is" + ": taken for one" * (len(tests) > 1))
+    return Results(
+        folder=Path(os.path.commonpath([test.folder for test in tests])),
+        identity=first.identity | {"seed": f"{UNKNOWN} ({number + 1})"},
+        model_file=first.model_file,
+        stresses=[test.shear.sigma for test in tests],
+        packing=first.packing,
+        consolidations={},
+        shears=[test.shear for test in tests],
+        problems=[],
+        notes=notes,
+    )
+
+
+def _read(folder: Path, model: str | None, speed: float | None) -> Test:
+    data = read_shear(folder / SHEAR_TABLE)
+    said = _commands(folder, SHEAR)
+    described = _model(folder, said, model)
+    pace = speed if "lower" not in said else 1000 * float(said["lower"][0])
+    if pace is None:
+        raise InputError(f"{folder}: {_no_log(folder)} tells the speed of the lower half: give --speed, in mm/s")
+    travel = 1000 * float(said["lower"][2]) if "lower" in said else float(data["displacement_mm"][-1])
+    sigma = float(said["lid"][0]) / 1000 if "lid" in said else float(f"{np.mean(data['sigma_kPa']):.2g}")
+    bed = _row(folder / CONSOLIDATED_TABLE)
+    identity = {
+        "model": described.name,
+        **{f"model {name}": value for name, value in described.variables.items()},
+        SPEED: float(f"{pace:.6g}"),
+        "travel_mm": float(f"{travel:.3g}"),
+        "law": said.get("law", (UNKNOWN,))[0],
+        "parameters": _parameters(said),
+    }
+    rows = full_speed(data)
+    if rows.stop - rows.start < FEWEST_ROWS:
+        raise ShearboxError(f"{folder}: {rows.stop - rows.start} rows at full speed are too few to fit a curve")
+    shear = analyse(sigma, folder, data, rows, _is_complete(data, travel), identity, bed or {}, None)
+    return Test(folder, identity, described.path, shear, _packing(folder), _sources(folder, said))
+
+
+def _model(folder: Path, said: dict[str, tuple[str, ...]], model: str | None) -> Model:
+    """As its file says now; width as the test had it."""
+    if model is None and "model" not in said:
+        raise InputError(f"{folder}: {_no_log(folder)} tells the model: give --model, a name or a file")
+    try:
+        described = find_model(model or str(folder / said["model"][0]))
+    except InputError as error:
+        raise InputError(f"{folder}: the model: {error}; --model tells a name or a file") from error
+    return replace(described, width=float(said["lid"][1])) if "lid" in said else described
+
+
+def _parameters(said: dict[str, tuple[str, ...]]) -> dict[str, str]:
+    """Of the contacts as they were; of the rest as parameters.in says."""
+    names = ("kn", "ks", "hn", "hs", "phi")
+    contact = dict(zip(names, (numeral(float(value)) for value in said.get("contact", ()))))
+    return {"density": read_variables(PARAMETERS)["density"], **contact}
+
+
+def _is_complete(data: Columns, travel: float) -> bool:
+    """Whether the last row, a mean over its interval, is within two intervals of the end."""
+    return bool(data["displacement_mm"][-1] >= travel * (1 - 2 / len(data["step"])))
+
+
+def _packing(folder: Path) -> dict[str, float] | None:
+    """The table beside the restart file that was consolidated, or in the folder."""
+    said = _commands(folder, CONSOLIDATE)
+    place = (folder / said["packed"][0]).parent if "packed" in said else folder
+    return _row(place / PACKED_TABLE)
+
+
+def _row(path: Path) -> dict[str, float] | None:
+    return read_row(path) if path.exists() else None
+
+
+def _sources(folder: Path, said: dict[str, tuple[str, ...]]) -> list[str]:
+    """Where the numbers come from."""
+    if not said:
+        return [f"{_no_log(folder)} tells of the test: σ is the mean of its column, travel that of the last row"]
+    return [
+        f"run by hand: model, σ, speed, travel and contacts are those of {_log(folder, SHEAR).name}; density is that of "
+        f"{PARAMETERS.name}, and lost grains are not counted"
+    ]
+
+
+def _log(folder: Path, deck: str) -> Path:
+    own = log_file(folder, deck)
+    return own if own.exists() else folder / ANY_DECK
+
+
+def _no_log(folder: Path) -> str:
+    return f"no log in it ({SHEAR}.log or {ANY_DECK})"
+
+
+def _commands(folder: Path, deck: str) -> dict[str, tuple[str, ...]]:
+    """The values in the last of each command, of a log of that deck."""
+    try:
+        text = _log(folder, deck).read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return {}
+    if deck == SHEAR and "cdem/move" not in text:
+        return {}
+    found = {name: re.findall(rf"^{pattern}(?=\s|$)", text, re.MULTILINE) for name, pattern in _COMMANDS.items()}
+    return {name: last if isinstance(last := all_[-1], tuple) else (last,) for name, all_ in found.items() if all_}
