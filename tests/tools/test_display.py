@@ -53,3 +53,27 @@ def test_bars_on_a_terminal(monkeypatch):
 )
 def test_durations(seconds, text):
     assert display.duration(seconds) == text
+
+
+def test_time_left_of_the_whole_follows_from_the_work_done(monkeypatch):
+    """Of 100 s of expected work 10 s took 40: 4 s each. What is given up takes no time."""
+    now = [0.0]
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    whole = display.Whole({"pack": 10.0, "shear": 60.0, "other": 30.0}, {})
+    assert whole.seconds_left() is None
+    now[0] = 40.0
+    whole.reached("pack", 1)
+    assert whole.seconds_left() == pytest.approx(4 * 90)
+    whole.reached("shear", 0.5)
+    assert whole.seconds_left() == pytest.approx(60)
+    whole.give_up(["other"])
+    assert whole.seconds_left() == pytest.approx(30)
+
+
+def test_what_was_done_before_says_nothing_of_the_speed(monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    whole = display.Whole({"a": 50.0, "b": 50.0}, {"a": 1.0})
+    now[0] = 20.0
+    whole.reached("b", 0.2)
+    assert whole.seconds_left() == pytest.approx(2 * 40)

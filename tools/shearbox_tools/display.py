@@ -103,9 +103,10 @@ class BarDisplay:
             self.moved(label, reached)
 
     def moved(self, label: str, displacement: float) -> None:
-        self._progress.update(self._tasks[label], completed=displacement, state=f"{displacement:.2f} mm", refresh=True)
         self._whole.reached(label, displacement / self._travels[label])
         self._update()
+        state = f"{displacement:.2f} mm"
+        self._progress.update(self._tasks[label], completed=displacement, state=state, refresh=True)
 
     def ended(self, label: str, note: str) -> None:
         self._whole.reached(label, 1)

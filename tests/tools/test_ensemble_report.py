@@ -1,0 +1,271 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The report on many runs: which of them belong together, what their means and shares are, what is left out."""
+
+import json
+import shutil
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import synthetic
+from shearbox_tools.ensemble_results import INDEPENDENT, SHARED, Ensemble
+from shearbox_tools.errors import ShearboxError
+from shearbox_tools.grouping import put_together, what_differs
+from shearbox_tools.mean_curve import average
+from shearbox_tools.models import INPUT, find_model, read_variables
+from shearbox_tools.reporting import report_on
+from shearbox_tools.request import Request
+from shearbox_tools.results import Results, read_results
+from shearbox_tools.specimens import find_runs
+from shearbox_tools.stress_dilatancy import Dilatant
+
+REQUEST = Request(find_model("TypeA_10x5_4-8_1-circle_350"), (100.0, 200.0, 300.0))
+ROWS, TRAVEL = 800, 8.0
+FACTORS = {1: 0.9, 2: 1.0, 3: 1.2}  # of tau, by seed
+
+
+def write_run(folder: Path, request: Request, factor: float = 1.0, rows: int = ROWS, lid: float = 1.0) -> Path:
+    """Smooth curves: tau is `factor` times that of `base`, the lid rises `lid` times as much as there."""
+    folder.mkdir(parents=True)
+    identity = request.identity(read_variables(INPUT / "parameters.in"))
+    record = {"identity": identity, "stresses": request.stresses}
+    (folder / "run.json").write_text(json.dumps(record), encoding="utf-8")
+    for sigma in request.stresses:
+        place = folder / f"{sigma:g}"
+        place.mkdir()
+        columns = base(sigma)
+        columns["tau_kPa"] = factor * columns["tau_kPa"]
+        columns["lid_mm"] = lid * columns["lid_mm"]
+        synthetic.write_shear(place / "shear.dat", columns, slice(0, rows))
+    return folder
+
+
+def base(sigma: float) -> dict[str, np.ndarray]:
+    """Peak 0.5 sigma + 5 kPa at 2.5 mm, without noise; the lid follows the stress, and rises steepest just before."""
+    columns = synthetic.curves(sigma, TRAVEL, ROWS)
+    s = columns["displacement_mm"]
+    tau = synthetic.softening(s, 0.5 * sigma + 5, 2.5, 0.3 * sigma)
+    return columns | {
+        "tau_kPa": tau,
+        "tau_upper_kPa": tau,
+        "lid_mm": 0.5 / (1 + np.exp(-(s - 2) / 0.5)) - 0.5 / (1 + np.exp(4)),
+    }
+
+
+@pytest.fixture(name="runs", scope="module")
+def _runs(tmp_path_factory) -> list[Results]:
+    """Specimens of seeds 1, 2, 3; the lid of the last sinks."""
+    folder = tmp_path_factory.mktemp("specimens")
+    return [
+        read_results(write_run(folder / f"seed_{n}", replace(REQUEST, seed=n), factor, lid=-1 if n == 3 else 1))
+        for n, factor in FACTORS.items()
+    ]
+
+
+def with_identity(run: Results, **changes) -> Results:
+    return replace(run, identity=run.identity | changes)
+
+
+def test_runs_that_differ_in_more_than_their_seeds_are_not_put_together(runs):
+    one, two, three = runs
+    fast = [with_identity(run, speed_mm_s=10) for run in (one, two)]
+    rough = with_identity(three, parameters=one.identity["parameters"] | {"phi": "30"})
+    ensembles, left_out = put_together([one, fast[0], two, rough, fast[1], with_identity(three, speed_mm_s=2)])
+    assert not left_out
+    assert [[run.identity["seed"] for run in ensemble.specimens] for ensemble in ensembles] == [[1, 2, 3], [1, 2], [3]]
+    assert what_differs(ensembles) == ["speed 2 mm/s, phi 27", "speed 10 mm/s, phi 27", "speed 2 mm/s, phi 30"]
+
+
+def test_a_packing_counts_once(runs):
+    copied = replace(runs[0], folder=Path("copy"))
+    (ensemble,), (left_out,) = put_together([*runs, copied])
+    assert ensemble.count == 3
+    assert left_out.folder == Path("copy") and "the same packing as" in left_out.reason
+
+
+def test_the_mean_curve_is_the_mean_at_equal_displacements(runs):
+    """Of curves f tau(s) it is the mean of f times tau, and the deviation that of f: no grid is in it.
+
+    The tables have ten digits.
+    """
+    curve = average([run.shears[1] for run in runs])
+    factors = np.array(list(FACTORS.values()))
+    tau = np.interp(curve.displacement, base(200)["displacement_mm"], base(200)["tau_kPa"])
+    assert curve.tau.mean == pytest.approx(factors.mean() * tau, rel=1e-8)
+    assert curve.tau.deviation == pytest.approx(factors.std(ddof=1) * tau, rel=1e-8)
+    assert curve.tau.error == pytest.approx(factors.std(ddof=1) / np.sqrt(3) * tau, rel=1e-8)
+    assert curve.peak.value == pytest.approx(np.mean([run.shears[1].peak.value for run in runs]), rel=1e-6)
+
+
+def test_specimens_that_peak_elsewhere_have_a_lower_mean(runs):
+    """Two curves with peaks of equal height apart: the mean has none as high."""
+    shear = runs[1].shears[1]
+    s = shear.data["displacement_mm"]
+    late = shear.data | {"tau_kPa": synthetic.softening(s, 105, 4, 60)}
+    curve = average([shear, replace(shear, data=late)])
+    assert curve.peak.value < 104
+    assert curve.tau.mean.max() == pytest.approx(np.max((shear.data["tau_kPa"] + late["tau_kPa"]) / 2), abs=0.01)
+
+
+def test_curves_of_other_lengths_are_averaged_where_all_are(runs):
+    shear = runs[0].shears[0]
+    curve = average([shear, replace(shear, rows=slice(10, 700))])
+    s = shear.data["displacement_mm"]
+    assert (curve.displacement[0], curve.displacement[-1]) == pytest.approx((max(s[10], s[shear.rows][0]), s[699]))
+    assert curve.tau.deviation == pytest.approx(0, abs=2e-3), "the same curve, interpolated between its rows"
+
+
+def test_strength_is_that_of_the_specimens_own_lines(runs):
+    """tau / sigma = tan(phi) + c / sigma by least squares, specimen by specimen; numpy's fit knows nothing of ours."""
+    ensemble = Ensemble(runs)
+    lines = [
+        np.polyfit([1 / s.sigma for s in run.shears], [s.peak.value / s.sigma for s in run.shears], 1) for run in runs
+    ]
+    c, slope = np.mean(lines, axis=0)
+    assert ensemble.model == SHARED and ensemble.strength
+    assert float(ensemble.strength.c_kPa.value) == pytest.approx(c)
+    assert float(ensemble.strength.phi_deg.value) == pytest.approx(np.degrees(np.arctan(slope)))
+    ratios = [np.mean([s.at_end.ratio for s in run.shears]) for run in runs]
+    assert float(ensemble.ultimate_angle.value) == pytest.approx(np.degrees(np.arctan(np.mean(ratios))))
+
+
+def only(run: Results, *stresses: float) -> Results:
+    return replace(run, stresses=list(stresses), shears=[s for s in run.shears if s.sigma in stresses])
+
+
+def test_a_packing_for_each_stress_is_another_model(runs):
+    """All peaks are on a line c + sigma tan(phi), so the interval has no width."""
+    single = [only(run, sigma) for run, sigma in zip(runs, (100.0, 200.0, 300.0))]
+    ensemble = Ensemble(single)
+    assert ensemble.model == INDEPENDENT and ensemble.strength and not ensemble.doubts
+    assert ensemble.strength.phi_deg.deviation is None
+    assert ensemble.share("proportional") == (0, 0), "no specimen has three stresses"
+    assert Ensemble(single[:2]).doubts == ["2 peaks: at least 3 are needed"]
+
+
+def test_stresses_that_some_lack_are_averaged_and_not_part_of_the_line(runs):
+    ensemble = Ensemble([*runs[:2], only(runs[2], 100.0, 300.0)])
+    assert ensemble.common == [100, 300]
+    assert [len(shears) for shears in ensemble.shears.values()] == [3, 2, 3]
+    assert ensemble.strength
+    assert "at least 2" in Ensemble([runs[0], only(runs[1], 100.0)]).doubts[0]
+
+
+def test_shares_of_specimens(runs):
+    """The lid of one of three sinks; the mean, (1 + 1 - 1) / 3 of a rise, does not tell."""
+    ensemble = Ensemble(runs)
+    assert ensemble.share("dilates") == (2, 3)
+    assert ensemble.verdicts["dilates"].holds is None
+    assert ensemble.share("proportional") == (3, 3) and ensemble.verdicts["proportional"].holds
+    assert Ensemble(runs[:2]).verdicts["dilates"].holds, "two equal rises leave no doubt"
+
+
+def states(peak: Dilatant, end: Dilatant) -> Results:
+    return SimpleNamespace(shears=[SimpleNamespace(at_peak=peak, at_end=end)])  # type: ignore[return-value]
+
+
+def by_rowe(critical: float, psi: float) -> Dilatant:
+    """The state with dilation angle psi, in degrees: s1/s3 is that of phi_cv times (1 + sin psi) / (1 - sin psi)."""
+    k = np.prod([(1 + np.sin(np.radians(a))) / (1 - np.sin(np.radians(a))) for a in (critical, psi)])
+    sine, psi = (k - 1) / (k + 1), np.radians(psi)
+    return Dilatant(float(sine * np.cos(psi) / (1 - sine * np.sin(psi))), float(np.tan(psi)))
+
+
+def test_a_relation_that_holds_changes_nothing_from_peak_to_end():
+    """Specimens that follow Rowe, each with a phi_cv of its own."""
+    every = Ensemble([states(by_rowe(cv, psi), by_rowe(cv, 0)) for cv, psi in ((24, 10), (27, 15), (25, 12))])
+    rowe, bolton = every.change_of_critical("rowe"), every.change_of_critical("bolton")
+    assert rowe and bolton
+    assert [float(rowe.low), float(rowe.high)] == pytest.approx([0, 0], abs=1e-9)
+    assert float(bolton.value) != pytest.approx(0, abs=0.1)
+
+
+class Links(HTMLParser):
+    def __init__(self) -> None:
+        super().__init__()
+        self.found: list[str] = []
+        self.open: list[str] = []
+        self.text = ""
+
+    def handle_starttag(self, tag, attributes):
+        values = dict(attributes)
+        self.found += [values[name] for name in ("href", "src") if name in values]
+        if tag not in ("meta", "br", "img"):
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.text += data
+
+
+@pytest.fixture(name="folder", scope="module")
+def _folder(tmp_path_factory) -> Path:
+    """Two specimens, one at another speed, one that was stopped and one whose record is damaged; each at its own depth."""
+    folder = tmp_path_factory.mktemp("many")
+    two = replace(REQUEST, stresses=(100.0, 300.0))
+    write_run(folder / "slow" / "seed_2", replace(two, seed=2))
+    write_run(folder / "slow" / "seed_10", replace(two, seed=10), 1.1)
+    write_run(folder / "fast", replace(two, speed=10.0))
+    write_run(folder / "stopped", replace(REQUEST, seed=3, stresses=(100.0,)), rows=400)
+    write_run(folder / "damaged", replace(REQUEST, seed=4, stresses=(100.0,)))
+    (folder / "damaged" / "run.json").write_text("{", encoding="utf-8")
+    with pytest.raises(ShearboxError, match="is written, but not all files can be read:\n.*damaged/run.json, line 1"):
+        report_on(folder)
+    return folder
+
+
+def test_the_page_is_well_formed_and_its_links_lead_somewhere(folder):
+    page = Links()
+    page.feed((folder / "report.html").read_text(encoding="utf-8"))
+    assert not page.open
+    files = [link for link in page.found if not link.startswith(("data:", "#"))]
+    assert {"slow/seed_2/report.html", "fast/report.html", "curves_1.csv", "curves_2.csv"} <= set(files)
+    assert all((folder / link).exists() for link in files)
+    for words in (
+        "standard error of the mean",
+        "standard deviation from specimen to specimen",
+        "fit alone",
+        "Five packings",
+    ):
+        assert words in " ".join(page.text.split()), words
+
+
+def test_the_summary_says_what_is_left_out(folder):
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    found = {one["differs"]: [s["folder"] for s in one["specimens"]] for one in summary["ensembles"]}
+    assert found == {"speed 10 mm/s": ["fast"], "speed 2 mm/s": ["slow/seed_2", "slow/seed_10"]}
+    reasons = {one["folder"]: one["reason"] for one in summary["left_out"]}
+    assert "sheared to 3.99" in reasons["stopped"] or "sheared to 4.00 mm only" in reasons["stopped"]
+    assert "run.json" in reasons["damaged"]
+    alone, both = summary["ensembles"]
+    assert alone["phi_deg"] is None and alone["fit_alone"]["phi_deg"] > 0
+    assert both["phi_deg"]["low"] < both["phi_deg"]["value"] < both["phi_deg"]["high"] and both["fit_alone"] is None
+
+
+def test_the_table_has_the_curves(folder):
+    table = np.genfromtxt(folder / "curves_2.csv", delimiter=",", names=True)
+    assert sorted(set(table["sigma_kPa"])) == [100, 300] and set(table["specimens"]) == {2}
+    assert table["tau_standard_error_kPa"] == pytest.approx(table["tau_standard_deviation_kPa"] / np.sqrt(2), rel=1e-6)
+
+
+def test_nothing_complete_is_no_report(tmp_path):
+    write_run(tmp_path / "a", replace(REQUEST, stresses=(100.0,)), rows=300)
+    with pytest.raises(ShearboxError, match="no specimen is complete yet\n.*100 kPa"):
+        report_on(tmp_path)
+    assert not (tmp_path / "report.html").exists()
+    with pytest.raises(ShearboxError, match="holds no run"):
+        report_on(tmp_path / "a" / "100" / "none")
+
+
+def test_runs_are_found_at_any_depth_but_not_within_runs(folder):
+    inner = folder / "fast" / "100" / "run.json"
+    shutil.copy(folder / "fast" / "run.json", inner)
+    names = [str(path.relative_to(folder)) for path in find_runs(folder)]
+    inner.unlink()
+    assert names == ["damaged", "fast", "slow/seed_2", "slow/seed_10", "stopped"]
+    assert find_runs(folder / "fast") == [folder / "fast"]
