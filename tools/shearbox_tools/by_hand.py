@@ -81,10 +81,14 @@ def read_by_hand(
 
 
 def _may_join(tests: Sequence[Test], test: Test) -> bool:
-    """Whether it is another stress of the same packing, as far as is known; of an unknown one it is taken to be."""
+    """Whether it is another stress of the same packing, as far as is known; of an unknown one it is taken to be.
+
+    One that was stopped stays alone: it must not cost the others.
+    """
     first = tests[0]
     another = all(other.shear.sigma != test.shear.sigma for other in tests)
-    return another and first.identity == test.identity and first.packing == test.packing
+    alike = first.identity == test.identity and first.packing == test.packing
+    return another and alike and first.shear.complete and test.shear.complete
 
 
 def _results(tests: Sequence[Test], number: int) -> Results:

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Tests run by hand: what a log tells, what is asked for, and which of them are one specimen. With logs of the real engine:
+tests/decks/test_ensemble.py."""
+
+import json
+from pathlib import Path
+
+import pytest
+import synthetic
+from shearbox_tools import cli
+from shearbox_tools.by_hand import read_by_hand
+from shearbox_tools.errors import ShearboxError
+from shearbox_tools.readers import BED
+from shearbox_tools.reporting import report_on
+
+MODEL = "TypeA_10x5_4-8_1-circle_350"
+LOG = """LAMMPS (29 Sep 2021)
+include  ${{models}}/${{model}}.in
+include  /decks/models/${{model}}.in
+include  /decks/models/{model}.in
+pair_style   cdem law ${{law}}
+pair_style   cdem law incremental
+pair_coeff   1 1 1e8 2.5e7 0.215 0.215 ${{friction}}
+pair_coeff   1 1 1e8 2.5e7 0.215 0.215 31
+fix         lower lower cdem/move speed $(v_speed/1000) ramp ${{climb}} stop $(v_travel/1000)
+fix         lower lower cdem/move speed 0.0050000000000000001 ramp 4e-05 stop 0.0080000000000000002
+fix         lid   lid   cdem/lid stress {sigma} width 0.1 thickness 0.01 vmax 10
+"""
+
+
+def write_test(folder: Path, sigma: float, log: str | None = "shear.log", packing: float | None = 1.0) -> Path:
+    """shear.dat, a log by that name, and packed.csv of a packing that took so many steps."""
+    folder.mkdir(parents=True)
+    synthetic.write_shear(folder / "shear.dat", synthetic.curves(sigma, 8))
+    if log:
+        model = Path(__file__).resolve().parents[2] / "input" / "models" / MODEL
+        text = LOG.format(model=MODEL, sigma=1000 * sigma).replace(f"/decks/models/{MODEL}", str(model))
+        (folder / log).write_text(text, encoding="utf-8")
+    if packing is not None:
+        synthetic.write_row(folder / "packed.csv", **dict.fromkeys(BED, 1.0) | {"steps": packing})
+    return folder
+
+
+@pytest.mark.parametrize("log", ["shear.log", "log.lammps"])
+def test_the_last_form_of_a_command_is_what_acted(tmp_path, log):
+    (run,), left_out = read_by_hand([write_test(tmp_path / "a", 150, log)], None, None)
+    assert not left_out and run.complete
+    identity = run.identity
+    assert (identity["model"], identity["law"], identity["speed_mm_s"], identity["travel_mm"]) == (
+        MODEL, "incremental", 5, 8,
+    )  # fmt: skip
+    assert identity["parameters"]["phi"] == "31" and run.stresses == [150]
+    assert log in run.notes[0]
+
+
+def test_stresses_of_a_packing_are_one_specimen(tmp_path):
+    """Packings are told apart by their tables; where there is none they are taken for one, which is said."""
+    folders = [write_test(tmp_path / name, s, packing=p) for name, s, p in
+               (("a", 100, 1), ("b", 200, 1), ("c", 100, 2), ("d", 300, None), ("e", 400, None))]  # fmt: skip
+    runs, _ = read_by_hand(folders, None, None)
+    assert [run.stresses for run in runs] == [[100, 200], [100], [300, 400]]
+    assert len({run.identity["seed"] for run in runs}) == 3
+    assert "no packed.csv tells of which packing it is: taken for one" in runs[2].notes
+    assert runs[0].folder == tmp_path
+
+
+def test_a_packing_counts_once(tmp_path):
+    for name in ("a", "b"):
+        write_test(tmp_path / name, 100)
+    report_on(tmp_path)
+    summary = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
+    assert len(summary["ensembles"][0]["specimens"]) == 1
+    assert "the same packing as" in summary["left_out"][0]["reason"]
+
+
+def shearbox(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str]:
+    return cli.main(["report", *words]), capsys.readouterr().err
+
+
+def test_what_no_log_tells_is_asked_for(tmp_path, capsys):
+    folder = str(write_test(tmp_path / "a", 100, log=None))
+    assert shearbox(capsys, folder) == (
+        2, f"shearbox: {folder}: no log in it (shear.log or log.lammps) tells the model: give --model, a name or a file\n",
+    )  # fmt: skip
+    status, message = shearbox(capsys, folder, "--model", MODEL)
+    assert status == 2 and "tells the speed of the lower half: give --speed, in mm/s" in message
+    assert shearbox(capsys, folder, "--model", MODEL, "--speed", "2")[0] == 0
+    summary = json.loads((tmp_path / "a" / "summary.json").read_text(encoding="utf-8"))
+    assert summary["ensembles"][0]["stresses"][0]["sigma_kPa"] == 100
+    assert "σ is the mean of its column" in summary["ensembles"][0]["notes"][0]
+
+
+def test_a_model_that_has_moved_is_named(tmp_path, capsys):
+    folder = write_test(tmp_path / "a", 100)
+    log = folder / "shear.log"
+    log.write_text(log.read_text(encoding="utf-8").replace(f"{MODEL}.in", "gone.in"), encoding="utf-8")
+    status, message = shearbox(capsys, str(folder))
+    assert status == 2 and "gone.in: No such file" in message and "--model tells a name or a file" in message
+
+
+def test_a_test_that_was_stopped_or_damaged_is_left_out(tmp_path):
+    write_test(tmp_path / "whole", 100)
+    synthetic.write_shear(write_test(tmp_path / "stopped", 200) / "shear.dat", synthetic.curves(200, 8), slice(0, 300))
+    (write_test(tmp_path / "damaged", 300) / "shear.dat").write_text("# step\n1 2\n", encoding="utf-8")
+    with pytest.raises(ShearboxError, match="not all files can be read"):
+        report_on(tmp_path)
+    summary = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
+    assert {one["folder"] for one in summary["left_out"]} == {"stopped", "damaged"}
+    assert len(summary["ensembles"][0]["stresses"]) == 1
+
+
+@pytest.mark.parametrize(
+    "speed, message", [("0", "0.001 to 1000 mm/s"), ("nan", "0.001 to 1000"), ("x", "not a number")]
+)
+def test_a_speed_that_cannot_be_is_refused(tmp_path, capsys, speed, message):
+    with pytest.raises(SystemExit):
+        cli.main(["report", str(tmp_path), "--speed", speed])
+    assert message in capsys.readouterr().err
+
+
+def test_options_are_refused_where_the_record_tells(tmp_path, capsys):
+    (tmp_path / "run.json").write_text("{}", encoding="utf-8")
+    status, message = shearbox(capsys, str(tmp_path), "--speed", "2")
+    assert status == 2 and "--speed 2.0: run.json tells it" in message
