@@ -110,6 +110,11 @@ class Ensemble:
         every = [[value(shear) for shear in specimen.shears] for specimen in self.specimens]
         return estimate([None if None in row else float(np.mean(np.array(row, float))) for row in every])
 
+    def critical_at_end(self, relation: str) -> Estimate | None:
+        """phi_cv (degrees) of the end by 'rowe' or 'bolton'."""
+        by = RELATIONS[relation]
+        return self.over_specimens(lambda shear: by(shear.at_end))
+
     def change_of_critical(self, relation: str) -> Estimate | None:
         """phi_cv of the peak less that of the end (degrees) by 'rowe' or 'bolton': 0 where the relation holds."""
         by = RELATIONS[relation]

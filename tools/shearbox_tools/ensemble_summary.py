@@ -50,6 +50,7 @@ def _ensemble(folder: Path, ensemble: Ensemble) -> dict[str, Any]:
         "fit_alone": _fit_alone(ensemble),
         "phi_ultimate_deg": _estimate(ensemble.ultimate_angle),
         "dilation_at_peak_deg": _estimate(ensemble.over_specimens(lambda shear: shear.at_peak.dilation_deg)),
+        "phi_cv_at_end_deg": {name: _estimate(ensemble.critical_at_end(name)) for name in RELATIONS},
         "phi_cv_at_peak_less_at_end_deg": {name: _estimate(ensemble.change_of_critical(name)) for name in RELATIONS},
         "criteria": {
             name: {"holds": verdict.holds, "reason": verdict.reason, **_share(ensemble, name)}

@@ -33,7 +33,7 @@ def put_together(runs: Iterable[Results]) -> tuple[list[Ensemble], list[LeftOut]
         group = groups.setdefault(tuple(sorted(settings_of(run.identity).items())), [])
         same = next((other for other in group if other.identity["seed"] == run.identity["seed"]), None)
         if same:
-            left_out.append(LeftOut(run.folder, f"the same packing as {same.folder}: seed {run.identity['seed']}"))
+            left_out.append(LeftOut(run.folder, f"the same packing as {same.folder.name}: seed {run.identity['seed']}"))
         else:
             group.append(run)
     return [Ensemble(group) for group in groups.values()], left_out
@@ -46,14 +46,14 @@ def settings_of(identity: Mapping[str, Any]) -> dict[str, str]:
 
 
 def what_differs(ensembles: Sequence[Ensemble]) -> list[str]:
-    """For each ensemble what tells it from others of the same model."""
+    """For each ensemble what tells it from others of the same model; tests run by hand do not know all settings."""
     settings = [settings_of(ensemble.identity) for ensemble in ensembles]
     names = [
         name
         for name in dict.fromkeys(name for one in settings for name in one)
-        if not name.startswith("model") and len({one.get(name) for one in settings}) > 1
+        if not name.startswith("model") and len({one[name] for one in settings if name in one}) > 1
     ]
-    return [", ".join(_named(name, one.get(name, "–")) for name in names) for one in settings]
+    return [", ".join(_named(name, one[name]) for name in names if name in one) for one in settings]
 
 
 def _named(name: str, value: str) -> str:
