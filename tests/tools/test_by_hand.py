@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Tests run by hand: what a log tells, what is asked for, and which of them are one specimen. With logs of the real engine:
-tests/decks/test_ensemble.py."""
+tests/decks/test_two_specimens.py."""
 
 import json
 from pathlib import Path

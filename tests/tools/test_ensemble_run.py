@@ -73,7 +73,6 @@ def test_two_specimens_keep_two_cores_busy(folder, tmp_path):
     for line in told:
         at_once.append(at_once[-1] + (1 if line.endswith("started") else -1))
     assert max(at_once) == 2
-    assert min(at_once[2:-2]) >= 1, "there is always another one to begin"
     assert told.index("seed_3 pack: started") > min(told.index(f"seed_{n} shear 100 kPa: started") for n in (1, 2))
     assert [identity(folder / f"seed_{n}")["seed"] for n in (1, 2, 3)] == [1, 2, 3]
 

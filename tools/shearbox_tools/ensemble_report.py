@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The report on many runs: report.html, summary.json, a table of mean curves for each ensemble; and each run's own."""
 
+import signal
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from os import sched_getaffinity
@@ -52,13 +53,23 @@ def _read_all(folders: Sequence[Path]) -> tuple[list[Results], list[LeftOut]]:
     """Read runs and write their own reports, as many at a time as there are cores."""
     read: list[Results] = []
     unread: list[LeftOut] = []
-    with ProcessPoolExecutor(len(sched_getaffinity(0))) as pool:
-        for folder, result in zip(folders, pool.map(_read_one, folders)):
-            if isinstance(result, Results):
-                read.append(result)
-            else:
-                unread.append(LeftOut(folder, result))
+    with ProcessPoolExecutor(len(sched_getaffinity(0)), initializer=_end_at_once) as pool:
+        results = [pool.submit(_read_one, folder) for folder in folders]
+        try:
+            for folder, result in zip(folders, (future.result() for future in results)):
+                if isinstance(result, Results):
+                    read.append(result)
+                else:
+                    unread.append(LeftOut(folder, result))
+        finally:
+            pool.shutdown(cancel_futures=True)
     return read, unread
+
+
+def _end_at_once() -> None:
+    """When it is stopped: the program that started this process has a message for that."""
+    for sign in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(sign, signal.SIG_DFL)
 
 
 def _read_one(folder: Path) -> Results | str:

@@ -18,7 +18,7 @@ def report_on(folder: Path, model: str | None = None, speed: float | None = None
         return report(folder)
     found = find_runs(folder, (RECORD, SHEAR_TABLE))
     if not found:
-        raise ShearboxError(f"{folder} holds no run: there is no {RECORD} and no {SHEAR_TABLE} in it, nor below it")
+        raise ShearboxError(f"{folder} holds no run: there is no {RECORD} in it, nor below it, and no {SHEAR_TABLE}")
     runs = [place for place in found if (place / RECORD).exists()]
     by_hand = [place for place in found if place not in runs]
     if not by_hand:

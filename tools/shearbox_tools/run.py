@@ -44,7 +44,8 @@ def run(options: argparse.Namespace) -> None:
         return
     _check_disk(out, sum(forecast.bytes for forecast in forecasts))
     with ExitStack() as stack:
-        locks = {folder: stack.enter_context(locked(folder)) for folder in dict.fromkeys([out, *_folders(runs)])}
+        folders = dict.fromkeys([out, *(one.folder for one in runs)])
+        locks = {folder: stack.enter_context(locked(folder)) for folder in folders}
         for one in runs:
             open_folder(one.folder, one.request)
         _say(console, f"left: {total(forecasts, options.jobs)}")
@@ -120,10 +121,6 @@ def _check_folders(out: Path, runs: list[Run], given: dict[str, Any]) -> None:
         return
     for one in runs:
         check_folder(one.folder, one.request)
-
-
-def _folders(runs: list[Run]) -> list[Path]:
-    return [one.folder for one in runs]
 
 
 def _forecast_text(runs: list[Run], forecasts: list[Forecast]) -> str:
