@@ -42,7 +42,7 @@ def write_test(folder: Path, sigma: float, log: str | None = "shear.log", packin
 
 
 @pytest.mark.parametrize("log", ["shear.log", "log.lammps"])
-def test_the_last_form_of_a_command_is_what_acted(tmp_path, log):
+def test_a_command_counts_once_all_its_values_are_there(tmp_path, log):
     (run,), left_out = read_by_hand([write_test(tmp_path / "a", 150, log)], None, None)
     assert not left_out and run.complete
     identity = run.identity

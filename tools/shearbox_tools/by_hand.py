@@ -189,12 +189,12 @@ def _no_log(folder: Path) -> str:
 
 
 def _commands(folder: Path, deck: str) -> dict[str, tuple[str, ...]]:
-    """The values in the last of each command, of a log of that deck."""
+    """The values in each command that has them all, of a log of that deck."""
     try:
         text = _log(folder, deck).read_text(encoding="utf-8", errors="replace")
     except OSError:
         return {}
     if deck == SHEAR and "cdem/move" not in text:
         return {}
-    found = {name: re.findall(rf"^{pattern}(?=\s|$)", text, re.MULTILINE) for name, pattern in _COMMANDS.items()}
-    return {name: last if isinstance(last := all_[-1], tuple) else (last,) for name, all_ in found.items() if all_}
+    found = {name: re.search(rf"^{pattern}(?=\s|$)", text, re.MULTILINE) for name, pattern in _COMMANDS.items()}
+    return {name: match.groups() for name, match in found.items() if match}
