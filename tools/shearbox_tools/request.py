@@ -22,8 +22,6 @@ _KINDS: dict[str, type | tuple[type, ...]] = {
     "stiffness": (int, float), "parameters": dict,
 }  # fmt: skip
 
-_NUMBERS = ("speed_mm_s", "travel_mm", "seed", "stiffness", "model ngrains", "model width", "model half_height")
-_REMEDY = "Put back a copy of it, or run in another folder"
 
 
 @dataclass(frozen=True)
