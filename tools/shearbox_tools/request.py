@@ -23,7 +23,6 @@ _KINDS: dict[str, type | tuple[type, ...]] = {
 }  # fmt: skip
 
 
-
 @dataclass(frozen=True)
 class Request:
     """Stresses in kPa, speed in mm/s, travel in mm, dt in s or 'auto', stiffness a factor on that of contacts.
