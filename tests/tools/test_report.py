@@ -13,7 +13,8 @@ import synthetic
 from shearbox_tools.cli import main
 from shearbox_tools.curves import _stress
 from shearbox_tools.models import INPUT, find_model, read_variables
-from shearbox_tools.report import minus, number, report
+from shearbox_tools.page import minus, number
+from shearbox_tools.report import report
 from shearbox_tools.request import Request
 from shearbox_tools.results import read_results
 from shearbox_tools.specimen import Film, count_lost

@@ -6,21 +6,18 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from .curves import draw_curves
-from .display import duration
 from .drawing import draw_specimen
 from .errors import ShearboxError
 from .files import CURVE, PAGE, SUMMARY, write_json, write_text
 from .models import PARAMETERS, read_comments
+from .page import render
 from .results import Results, read_results
 from .shear import Shear
 from .specimen import Film, missing_frames
 from .strength import KNOWN_SCATTER
 from .summary import phase_logs, summarise
-
-TEMPLATES = Path(__file__).parent / "templates"
 
 
 def report(folder: Path) -> Path:
@@ -74,19 +71,9 @@ def _curve(shear: Shear) -> str:
 
 
 def _page(results: Results, summary: dict[str, Any], pictures: dict[str, str]) -> str:
-    environment = Environment(
-        loader=FileSystemLoader(TEMPLATES),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters["duration"] = duration
-    environment.filters["number"] = number
-    environment.filters["minus"] = minus
-    return environment.get_template("report.html.j2").render(
-        summary=summary, shears=results.shears, line=results.line, pictures=pictures, logs=phase_logs(results),
-        consolidations=results.consolidations, known_scatter=KNOWN_SCATTER,
+    return render(
+        "report.html.j2", summary=summary, shears=results.shears, line=results.line, pictures=pictures,
+        logs=phase_logs(results), consolidations=results.consolidations, known_scatter=KNOWN_SCATTER,
         comments=_comments(results.model_file),
     )  # fmt: skip
 
@@ -98,13 +85,3 @@ def _comments(model: Path) -> dict[str, str]:
         return {**read_comments(PARAMETERS), **{f"model {k}": text for k, text in of_model.items()}}
     except ShearboxError:
         return {}
-
-
-def number(value: float | None, digits: int = 4) -> str:
-    """A number as people write it; a dash for what is not known."""
-    return "–" if value is None else minus(f"{value:.{digits}g}".replace("e-0", "e-").replace("e+0", "e"))
-
-
-def minus(text: str) -> str:
-    """The text with a minus sign for its hyphen, and none before a zero."""
-    return text.lstrip("+-") if not text.strip("+-0.") else text.replace("-", "−")
