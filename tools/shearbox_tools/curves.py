@@ -75,7 +75,7 @@ def dilatancy(results: Results) -> Figure:
 def stress_ratios(results: Results) -> dict[str, Figure]:
     """τ/σ by the lid, and by the shear plane where it is known of all stresses: on the same scale."""
     ratios: dict[str, Callable[[Shear, np.ndarray], np.ndarray]] = {"lid": _by_lid}
-    if all(shear.plane for shear in results.shears):
+    if results.knows_plane:
         ratios["plane"] = _by_plane
     places = [(shear, _places(shear.tau, shear)) for shear in results.shears]
     heights = [ratio(shear, s) for ratio in ratios.values() for shear, s in places]

@@ -62,11 +62,16 @@ class Results:
         """The same through the peaks of the smoothed data."""
         return self._line([shear.smoothed for shear in self.shears])
 
+    @property
+    def knows_plane(self) -> bool:
+        """Whether the normal stress on the shear plane is known at all stresses."""
+        return all(shear.plane for shear in self.shears)
+
     @cached_property
     def plane_line(self) -> Line | None:
         """The first again at the normal stresses on the shear plane, where these are known."""
         planes = [shear.plane for shear in self.shears if shear.plane]
-        if len(planes) < max(2, len(self.shears)):
+        if not self.knows_plane or len(planes) < 2:
             return None
         return line_on_plane([shear.peak for shear in self.shears], planes)
 
