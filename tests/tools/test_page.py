@@ -40,9 +40,12 @@ def _page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     model = find_model("TypeA_10x5_4-8_1-circle_350")
     identity = Request(model, STRESSES).identity(read_variables(INPUT / "parameters.in"))
     (folder / "run.json").write_text(json.dumps({"identity": identity, "stresses": STRESSES}), encoding="utf-8")
+    (folder / "packed").mkdir()
+    synthetic.write_row(folder / "packed" / "packed.csv", **synthetic.bed())
     for sigma in STRESSES:
         place = folder / f"{sigma:g}"
         place.mkdir()
+        synthetic.write_row(place / "consolidated.csv", **synthetic.bed())
         curves = synthetic.curves(sigma, 8)
         curves["plane_kPa"] = sigma + 0.3 * curves["tau_kPa"]
         synthetic.write_shear(place / "shear.dat", curves)

@@ -32,27 +32,14 @@ def _folder(tmp_path: Path) -> Path:
     identity = Request(model, STRESSES).identity(read_variables(INPUT / "parameters.in"))
     (tmp_path / "run.json").write_text(json.dumps({"identity": identity, "stresses": STRESSES}), encoding="utf-8")
     (tmp_path / "packed").mkdir()
-    synthetic.write_row(tmp_path / "packed" / "packed.csv", **bed())
+    synthetic.write_row(tmp_path / "packed" / "packed.csv", **synthetic.bed())
     for sigma in STRESSES:
         place = tmp_path / f"{sigma:g}"
         place.mkdir()
-        synthetic.write_row(place / "consolidated.csv", **bed(), sigma_kPa=sigma)
+        synthetic.write_row(place / "consolidated.csv", **synthetic.bed(), sigma_kPa=sigma)
         synthetic.write_shear(place / "shear.dat", synthetic.curves(sigma, 8))
         synthetic.write_frames(place, STEPS, 8)
     return tmp_path
-
-
-def bed() -> dict[str, float]:
-    return {
-        "grains": 350,
-        "height_m": 0.0987,
-        "solid_fraction": 0.835,
-        "solid_fraction_bottom": 0.834,
-        "solid_fraction_top": 0.836,
-        "unbalanced": 8e-5,
-        "kinetic_J": 3e-12,
-        "steps": 123000,
-    }
 
 
 def summary(folder: Path) -> dict:
