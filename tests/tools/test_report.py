@@ -112,16 +112,11 @@ def test_further_columns_have_diagrams(folder):
     """If the tables of all stresses have them."""
     for sigma in STRESSES:
         curve = synthetic.curves(sigma, 8)
-        curve["inertial_number"] = np.full(800, 1e-4)
+        curve["coordination"] = np.full(800, 3.0)
         if sigma == 100:
-            curve["of_one_kPa"] = np.zeros(800)
+            curve["inertial"] = np.zeros(800)
         synthetic.write_shear(folder / f"{sigma:g}" / "shear.dat", curve)
-    assert list(curves.other_columns(read_results(folder))) == ["trm", "kinetic_J", "inertial_number"]
-
-
-@pytest.mark.parametrize("column, said", [("inertial_number", "inertial number I (–)"), ("lost_J", "lost (J)")])
-def test_names_of_columns(column, said):
-    assert curves.title(column) == said
+    assert list(curves.other_columns(read_results(folder))) == ["coordination", "trm", "kinetic_J"]
 
 
 def test_a_remark_is_said_once():

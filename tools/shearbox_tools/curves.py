@@ -10,7 +10,6 @@ from matplotlib.figure import Figure
 from numpy.polynomial import Legendre
 
 from .features import steepest_dilatancy
-from .plane import COLUMN
 from .polynomial import Fit, end_zone
 from .results import Results
 from .shear import Shear
@@ -20,17 +19,14 @@ DISPLACEMENT = "shear displacement (mm)"
 MARKS = 5  # on a curve
 MARGIN = 0.05  # of the height of a diagram, above and below the curves
 
-# What other columns of the table are called; those that are not here have their name for it.
-TITLES = {
+OTHERS = {  # further columns that have a diagram each, if they are there, and what they are called
+    "inertial": "inertial number I (–)",
+    "coordination": "coordination number (–)",
+    "solid_fraction": "solid fraction (–)",
+    "sides_upper_kPa": "load on the upper sides (kPa)",
     "trm": "TRM so far: above 1 grains spin (–)",
     "kinetic_J": "kinetic energy (J)",
-    "inertial_number": "inertial number I (–)",
-    "coordination": "coordination number (–)",
-    "porosity": "porosity (–)",
-    "solid_fraction": "solid fraction (–)",
 }
-DRAWN = ("step", "displacement_mm", "tau_kPa", "sigma_kPa", "lid_mm", COLUMN)
-OF_AUDIT = ("tau_upper_kPa", "dangerous", "work_J", "residual_J")  # judged, and told as numbers
 
 
 def stress(results: Results) -> Figure:
@@ -83,15 +79,9 @@ def stress_ratios(results: Results) -> dict[str, Figure]:
 
 
 def other_columns(results: Results) -> dict[str, Figure]:
-    """A diagram for each further column that the tables of all stresses have, by its name."""
-    names = [n for n in results.shears[0].data if n not in DRAWN + OF_AUDIT]
-    return {n: _column(results, n) for n in names if all(n in shear.data for shear in results.shears)}
-
-
-def title(column: str) -> str:
-    """What a column is called, with its unit."""
-    name, _, unit = column.rpartition("_")
-    return TITLES.get(column) or (f"{name.replace('_', ' ')} ({unit})" if name else column)
+    """A diagram for each of the other columns that the tables of all stresses have, by its name."""
+    names = [name for name in OTHERS if all(name in shear.data for shear in results.shears)]
+    return {name: _column(results, name) for name in names}
 
 
 def _stress_ratio(
@@ -116,7 +106,7 @@ def _by_plane(shear: Shear, s: np.ndarray) -> np.ndarray:
 
 
 def _column(results: Results, name: str) -> Figure:
-    figure, axes = diagram(DISPLACEMENT, title(name))
+    figure, axes = diagram(DISPLACEMENT, OTHERS[name])
     for k, (shear, look) in enumerate(_each(results)):
         s, y = shear.data["displacement_mm"][shear.rows], shear.data[name][shear.rows]
         axes.plot(s, y, look.mark, **_line(look, k, len(s), 1.2))

@@ -96,7 +96,7 @@ def _page(results: Results, summary: dict[str, Any], specimens: dict[float, Stil
     """Its size in MB is told on itself."""
     values = dict(
         summary=summary, line=results.line, plane_line=results.plane_line, knows_plane=results.knows_plane, diagrams=_diagrams(results),
-        pictures=draw_specimens(specimens), specimens=specimens, column_title=curves.title, logs=phase_logs(results),
+        pictures=draw_specimens(specimens), specimens=specimens, column_titles=curves.OTHERS, logs=phase_logs(results),
         consolidations=[(f"{sigma:g}", bed) for sigma, bed in results.consolidations.items()], known_scatter=KNOWN_SCATTER, comments=_comments(results.model_file),
     )  # fmt: skip
     size = len(render(PAGE_TEMPLATE, **values, size_MB=0))
