@@ -59,7 +59,8 @@ def dilatancy(results: Results) -> Figure:
     for k, (shear, look) in enumerate(_each(results)):
         rate, zone = shear.lid.series.deriv(), end_zone(shear.lid.span)
         _draw_fit(axes, shear, rate, look, k, zone)
-        _draw_peak(axes, shear.peak.position, rate(shear.peak.position), look)
+        if not shear.peak.at_boundary:  # where the slope of the fit is not held, and beyond the diagram
+            _draw_peak(axes, shear.peak.position, rate(shear.peak.position), look)
         axes.plot(*steepest_dilatancy(shear.lid), "*", ms=10, color=look.colour, mec="white", mew=0.6, zorder=5)
         heights.append(rate(np.linspace(zone, shear.lid.span - zone, 200)))
     _finish(axes, results, heights)
