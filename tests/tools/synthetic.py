@@ -73,6 +73,20 @@ def write_row(path: Path, **values: float) -> None:
     path.write_text(",".join(values) + "\n" + ",".join(f"{v:.10g}" for v in values.values()) + "\n", encoding="utf-8")
 
 
+def bed() -> dict[str, float]:
+    """Numbers of a packed or a consolidated specimen, as the decks write them."""
+    return {
+        "grains": 350,
+        "height_m": 0.0987,
+        "solid_fraction": 0.835,
+        "solid_fraction_bottom": 0.834,
+        "solid_fraction_top": 0.836,
+        "unbalanced": 8e-5,
+        "kinetic_J": 3e-12,
+        "steps": 123000,
+    }
+
+
 def packing(width: float, height: float, radius: float) -> np.ndarray:
     """(n, 2) centres of a hexagonal packing of equal discs in the box, in m."""
     across = int((width - 2 * radius) / (2 * radius)) + 1

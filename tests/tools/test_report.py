@@ -11,13 +11,15 @@ import pytest
 import synthetic
 
 from shearbox_tools.cli import main
-from shearbox_tools.curves import _stress
+from shearbox_tools import curves
 from shearbox_tools.models import INPUT, find_model, read_variables
-from shearbox_tools.report import minus, number, report
+from shearbox_tools.notes import said_once
+from shearbox_tools.page import minus, number
+from shearbox_tools.report import report
 from shearbox_tools.request import Request
 from shearbox_tools.results import read_results
 from shearbox_tools.specimen import Film, count_lost
-from shearbox_tools.style import PAPER_COLOURS, colours
+from shearbox_tools.style import PAPER_LOOKS, looks
 from shearbox_tools.summary import summarise
 
 STRESSES = (100.0, 200.0)
@@ -30,27 +32,14 @@ def _folder(tmp_path: Path) -> Path:
     identity = Request(model, STRESSES).identity(read_variables(INPUT / "parameters.in"))
     (tmp_path / "run.json").write_text(json.dumps({"identity": identity, "stresses": STRESSES}), encoding="utf-8")
     (tmp_path / "packed").mkdir()
-    synthetic.write_row(tmp_path / "packed" / "packed.csv", **bed())
+    synthetic.write_row(tmp_path / "packed" / "packed.csv", **synthetic.bed())
     for sigma in STRESSES:
         place = tmp_path / f"{sigma:g}"
         place.mkdir()
-        synthetic.write_row(place / "consolidated.csv", **bed(), sigma_kPa=sigma)
+        synthetic.write_row(place / "consolidated.csv", **synthetic.bed(), sigma_kPa=sigma)
         synthetic.write_shear(place / "shear.dat", synthetic.curves(sigma, 8))
         synthetic.write_frames(place, STEPS, 8)
     return tmp_path
-
-
-def bed() -> dict[str, float]:
-    return {
-        "grains": 350,
-        "height_m": 0.0987,
-        "solid_fraction": 0.835,
-        "solid_fraction_bottom": 0.834,
-        "solid_fraction_top": 0.836,
-        "unbalanced": 8e-5,
-        "kinetic_J": 3e-12,
-        "steps": 123000,
-    }
 
 
 def summary(folder: Path) -> dict:
@@ -61,8 +50,11 @@ def test_the_page_stands_alone_and_is_well_formed(folder):
     page = report(folder).read_text(encoding="utf-8")
     links = re.findall(r'(?:src|href)="([^"]{0,60})', page)
     assert [link for link in links if not link.startswith("data:")] == ["https://doi.org/10.15002/00007990"]
-    assert len([link for link in links if link.startswith("data:image/svg+xml")]) == 4
-    assert len([link for link in links if link.startswith("data:image/png")]) == 2
+    assert len([link for link in links if link.startswith("data:image/svg+xml")]) == 10, "diagrams, a scale of colours"
+    assert len([link for link in links if link.startswith("data:image/webp")]) == 2 * 3 * 2
+    assert all(re.findall(r'<img [^>]*alt="(.*?)"', page)) and page.count("<img ") == page.count(' alt="')
+    told = float(re.search(r"one file of (\S+) MB", page)[1])
+    assert 1e6 * told == pytest.approx(len(page.encode()), abs=5e4)
     assert "<script" not in page and "{{" not in page
     checker = TagChecker()
     checker.feed(page)
@@ -84,6 +76,51 @@ class TagChecker(HTMLParser):
 
     def handle_endtag(self, tag):
         assert self.open_tags.pop() == tag, f"</{tag}> at line {self.getpos()[0]}"
+
+
+def add_plane(folder: Path) -> None:
+    """On the plane 20 kPa more than the lid's, and half of tau."""
+    for sigma in STRESSES:
+        curve = synthetic.curves(sigma, 8)
+        curve["plane_kPa"] = sigma + 20 + curve["tau_kPa"] / 2
+        synthetic.write_shear(folder / f"{sigma:g}" / "shear.dat", curve)
+
+
+def test_both_strengths_stand_side_by_side(folder):
+    """tau = 5 + 0.5 lid is tau = -4 + 0.4 plane where plane = lid + 20 + tau / 2."""
+    page = report(folder).read_text(encoding="utf-8")
+    assert "on the shear plane" not in page and summary(folder)["phi_plane_deg"] is None
+    add_plane(folder)
+    page = report(folder).read_text(encoding="utf-8")
+    result = summary(folder)
+    assert np.tan(np.radians([result["phi_deg"], result["phi_plane_deg"]])) == pytest.approx([0.5, 0.4], abs=0.03)
+    assert result["c_plane_kPa"] == pytest.approx(-4, abs=4)
+    first = result["stresses"][0]
+    assert first["plane_at_peak_kPa"] == pytest.approx(120 + first["tau_peak_kPa"] / 2, rel=0.01)
+    by_plane = first["tau_peak_kPa"] / first["plane_at_peak_kPa"]
+    assert re.search(rf"τ/σ on the shear plane</th><td>{by_plane:.3f}</td>", page)
+    assert f"{result['phi_plane_deg']:.1f}" in headline(folder)
+
+
+def test_stress_ratios_have_one_scale(folder):
+    add_plane(folder)
+    scales = {f.axes[0].get_ylim() for f in curves.stress_ratios(read_results(folder)).values()}
+    assert len(scales) == 1
+
+
+def test_further_columns_have_diagrams(folder):
+    """If the tables of all stresses have them."""
+    for sigma in STRESSES:
+        curve = synthetic.curves(sigma, 8)
+        curve["coordination"] = np.full(800, 3.0)
+        if sigma == 100:
+            curve["inertial"] = np.zeros(800)
+        synthetic.write_shear(folder / f"{sigma:g}" / "shear.dat", curve)
+    assert list(curves.other_columns(read_results(folder))) == ["coordination", "trm", "kinetic_J"]
+
+
+def test_a_remark_is_said_once():
+    assert said_once([(100, "slow"), (200, "fast"), (300, "slow")]) == ["100, 300 kPa: slow", "200 kPa: fast"]
 
 
 def test_numbers_of_the_summary(folder):
@@ -126,13 +163,13 @@ def test_the_same_folder_gives_the_same_files(folder):
 def test_a_missing_stress_is_said(folder):
     (folder / "200" / "shear.dat").unlink()
     page = report(folder).read_text(encoding="utf-8")
-    assert "200 kPa has not been sheared yet" in page
+    assert "200 kPa: not sheared yet" in page
     assert not summary(folder)["complete"]
 
 
 def test_an_unfinished_stress_is_said(folder):
     synthetic.write_shear(folder / "200" / "shear.dat", synthetic.curves(200, 8), slice(0, 300))
-    assert "200 kPa has reached 3.00 mm only" in report(folder).read_text(encoding="utf-8")
+    assert "200 kPa: sheared to 3.00 mm only" in report(folder).read_text(encoding="utf-8")
     assert not summary(folder)["complete"]
 
 
@@ -171,8 +208,20 @@ def test_negative_stress_is_drawn(folder):
     curve = synthetic.curves(200, 8)
     curve["tau_kPa"][400:410] = -300
     synthetic.write_shear(folder / "200" / "shear.dat", curve)
-    assert _stress(read_results(folder)).axes[0].get_ylim()[0] < -300
-    assert _stress(read_results(folder)).axes[0].get_ylim()[1] > 100
+    low, high = curves.stress(read_results(folder)).axes[0].get_ylim()
+    assert low < -300 and high > 100
+
+
+def test_spikes_of_start_and_stop_do_not_widen_the_axis(folder):
+    """Nine rows of a ramp and forty after the stop have ten times the stress of the others."""
+    curve = synthetic.curves(200, 8)
+    curve["tau_kPa"][:9] = 1000
+    curve["tau_kPa"][760:] = -1000
+    curve["displacement_mm"][:9] = curve["displacement_mm"][9] - 0.001 * np.cumsum(np.arange(9, 0, -1))[::-1]
+    curve["displacement_mm"][760:] = curve["displacement_mm"][759] + 0.004
+    synthetic.write_shear(folder / "200" / "shear.dat", curve)
+    low, high = curves.stress(read_results(folder)).axes[0].get_ylim()
+    assert -10 <= low <= 0 and 100 < high < 150
 
 
 def test_a_fast_test_is_said(folder):
@@ -180,7 +229,8 @@ def test_a_fast_test_is_said(folder):
     record["identity"]["speed_mm_s"] = 1000.0
     (folder / "run.json").write_text(json.dumps(record), encoding="utf-8")
     result = summarise(read_results(folder))
-    assert "100 kPa: not quasi-static: inertial number 14" in result["notes"][0]
+    assert result["notes"][0] == "100, 200 kPa: not quasi-static; shear more slowly"
+    assert "inertial number 14" in result["stresses"][0]["criteria"]["quasi_static"]["reason"]
     assert result["criteria"]["quasi_static"] == {"holds": False, "reason": "not at 100 kPa, 200 kPa"}
 
 
@@ -194,7 +244,7 @@ def test_the_strength_at_the_end(folder):
 
 def test_too_few_rows_are_said(folder):
     synthetic.write_shear(folder / "200" / "shear.dat", synthetic.curves(200, 8), slice(0, 3))
-    assert "200 kPa has 3 rows at full speed only" in report(folder).read_text(encoding="utf-8")
+    assert "200 kPa: 3 rows at full speed only" in report(folder).read_text(encoding="utf-8")
 
 
 def test_a_curve_that_still_rises_is_said(folder):
@@ -236,7 +286,7 @@ def test_missing_dumps_cost_the_pictures_only(folder):
     for name in ("grains", "discs", "contacts"):
         (folder / "100" / f"{name}.dump").unlink()
     assert main(["report", str(folder)]) == 0
-    assert "100 kPa has no grains.dump, discs.dump, contacts.dump and so no picture" in summary(folder)["notes"][0]
+    assert "100 kPa: no grains.dump, discs.dump, contacts.dump and so no picture" in summary(folder)["notes"][0]
     assert summary(folder)["complete"]
     assert summary(folder)["stresses"][0]["grains_lost"] is None
 
@@ -337,10 +387,15 @@ def test_frames_are_found_by_displacement(folder):
     assert np.ptp(turned) > 1
 
 
-def test_colours_of_the_paper_and_others():
-    chosen = colours([50.0, 100.0, 200.0, 300.0, 400.0, 450.5])
-    assert [chosen[s] for s in (100.0, 200.0, 300.0, 400.0)] == list(PAPER_COLOURS.values())
-    assert len(set(chosen.values())) == 6
+def test_looks_of_the_paper_and_others():
+    chosen = looks([50.0, 100.0, 200.0, 300.0, 400.0, 450.5])
+    assert [chosen[s] for s in (100.0, 200.0, 300.0, 400.0)] == list(PAPER_LOOKS.values())
+
+
+def test_any_of_colour_dashes_and_mark_tells_ten_stresses_apart():
+    chosen = looks([100, 200, 300, 400, 10, 20, 30, 40, 50, 60]).values()
+    for values in ([x.colour for x in chosen], [str(x.dashes) for x in chosen], [x.mark for x in chosen]):
+        assert len(set(values)) == 10
 
 
 @pytest.mark.parametrize("value, text", [(None, "–"), (0.00008, "8e−5"), (-1.5, "−1.5"), (350, "350"), (2e6, "2e6")])

@@ -124,7 +124,7 @@ def test_a_failed_stress_does_not_cost_the_others(folder):
     assert "shear 200 kPa failed: ERROR: Lost atoms: original 350 current 349" in failed.stderr
     assert f"log: {folder / '200' / 'shear.log'}" in failed.stderr
     assert not summary(folder)["complete"]
-    assert "200 kPa has reached 4.00 mm only" in summary(folder)["notes"]
+    assert "200 kPa: sheared to 4.00 mm only" in summary(folder)["notes"]
     assert [stress["complete"] for stress in summary(folder)["stresses"]] == [True, False, True, True]
 
     assert shearbox(folder).returncode == 0

@@ -32,9 +32,9 @@ def with_stress(tau: np.ndarray, travel: float = 8) -> Columns:
     return {**curves(200, travel), "tau_kPa": tau, "tau_upper_kPa": tau}
 
 
-def test_a_test_without_a_fault_has_no_notes() -> None:
+def test_a_test_without_a_fault_has_no_remarks() -> None:
     shear = sheared(curves(200, 8))
-    assert shear.notes == [] and shear.doubt is None
+    assert shear.remarks == [] and shear.doubt is None
     assert {name: verdict.holds for name, verdict in shear.verdicts.items()} == {
         "dilates": True,
         "peak_at_steepest_dilatancy": True,
@@ -67,7 +67,7 @@ def test_an_unfinished_test_judges_no_feature() -> None:
     assert shear.doubt == "sheared to 0.12 mm only"
     assert shear.verdicts["dilates"].holds is None
     assert shear.verdicts["peak_at_steepest_dilatancy"].holds is None
-    assert "200 kPa has reached 0.12 mm only" in shear.notes
+    assert "sheared to 0.12 mm only" in shear.remarks
 
 
 @pytest.mark.parametrize("deviation, part", [(150, "too uncertain (error ≤ 25 %)"), (1, "0.1 % of the width (≥ 1 %)")])
@@ -78,7 +78,7 @@ def test_a_travel_of_a_tenth_of_a_millimetre_is_no_test(deviation: float, part: 
     shear = sheared(with_stress(top + noise(800, deviation), 0.1))
     assert shear.doubt is not None and part in shear.doubt
     assert shear.verdicts["dilates"].holds is None
-    assert any("the peak cannot be judged" in note for note in shear.notes)
+    assert any("the peak cannot be judged" in remark for remark in shear.remarks)
 
 
 @pytest.mark.parametrize("travel, doubted", [(4.9, True), (5.1, False)])
@@ -99,7 +99,7 @@ def test_a_peak_that_the_polynomial_misses_is_said() -> None:
     assert shear.peak.value < 325
     assert shear.smoothed.value == pytest.approx(350, abs=2 * shear.smoothed.value_error)
     assert shear.peaks_differ
-    assert any("is not that of the smoothed data" in note for note in shear.notes)
+    assert any("is not that of the smoothed data" in remark for remark in shear.remarks)
     assert shear.residual > 10
 
 
@@ -122,21 +122,22 @@ def test_a_fast_test_is_not_quasi_static() -> None:
     assert slow.inertia.number == pytest.approx(2.04e-5, rel=0.02)
     assert fast.inertia.number == pytest.approx(100 * (slow.inertia.number or 0))
     assert fast.verdicts["quasi_static"].holds is False
-    assert any("not quasi-static: inertial number 2.0" in note for note in fast.notes)
+    assert "not quasi-static; shear more slowly" in fast.remarks
+    assert "inertial number 2.0" in fast.verdicts["quasi_static"].reason
     assert fast.doubt is None
 
 
 def test_halves_that_swing_are_not_quasi_static() -> None:
     data = curves(200, 8)
     data["tau_upper_kPa"] = data["tau_kPa"] + 30 * np.sin(40 * S)
-    assert any("τ of the halves differs by 2" in note for note in sheared(data).notes)
+    assert "τ of the halves differs by 2" in sheared(data).verdicts["quasi_static"].reason
 
 
 def test_what_is_not_recorded_is_not_judged() -> None:
     data = curves(200, 8)
     del data["tau_upper_kPa"]
     shear = sheared(data, bed={})
-    assert shear.verdicts["quasi_static"].holds is None and shear.notes == []
+    assert shear.verdicts["quasi_static"].holds is None and shear.remarks == []
 
 
 def test_dilatancy_of_a_straight_lid() -> None:

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from synthetic import correlated_noise
 
-from shearbox_tools.stress_dilatancy import Dilatant, ultimate
+from shearbox_tools.stress_dilatancy import Dilatant, rowe_ratio, ultimate
 
 
 def on_the_plane_of_no_extension(phi: float, psi: float) -> tuple[float, float]:
@@ -38,6 +38,13 @@ def test_rowe_and_bolton() -> None:
     assert state.critical_by_rowe_deg == pytest.approx(20, abs=0.01)
     assert state.critical_by_bolton_deg == pytest.approx(33.503 - 12, abs=0.001)
     assert not state.is_critical
+
+
+@pytest.mark.parametrize("rate", [-0.2, 0, 0.5])
+def test_rowes_line(rate: float) -> None:
+    """All states on it have its phi_cv."""
+    ratio = float(rowe_ratio(np.array([rate]), 24)[0])
+    assert Dilatant(ratio, rate).critical_by_rowe_deg == pytest.approx(24)
 
 
 def test_the_critical_state() -> None:

@@ -94,7 +94,7 @@ def _may_join(tests: Sequence[Test], test: Test) -> bool:
 def _results(tests: Sequence[Test], number: int) -> Results:
     tests = sorted(tests, key=lambda test: test.shear.sigma)
     first = tests[0]
-    notes = [f"{test.folder.name}: {note}" for test in tests for note in [*test.notes, *test.shear.notes]]
+    notes = [f"{test.folder.name}: {note}" for test in tests for note in [*test.notes, *test.shear.remarks]]
     if first.packing is None:
         notes.append(f"no {PACKED_TABLE} tells of which packing it is" + ": taken for one" * (len(tests) > 1))
     return Results(

@@ -1,125 +1,169 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The report's diagrams."""
+"""The report's diagrams against shear displacement: raw rows faint, their fit strong."""
+
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
-from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.polynomial import Legendre
 
 from .features import steepest_dilatancy
-from .polynomial import end_zone
+from .polynomial import Fit, end_zone
 from .results import Results
 from .shear import Shear
-from .strength import Line
-from .style import RC, as_uri, colours
+from .style import Look, diagram, looks, name_stresses
 
-SIZE = (5.6, 3.7)  # inches
 DISPLACEMENT = "shear displacement (mm)"
+MARKS = 5  # on a curve
+MARGIN = 0.05  # of the height of a diagram, above and below the curves
+
+OTHERS = {  # further columns that have a diagram each, if they are there, and what they are called
+    "inertial": "inertial number I (–)",
+    "coordination": "coordination number (–)",
+    "solid_fraction": "solid fraction (–)",
+    "sides_upper_kPa": "load on the upper sides (kPa)",
+    "trm": "TRM so far: above 1 grains spin (–)",
+    "kinetic_J": "kinetic energy (J)",
+}
 
 
-def draw_curves(results: Results) -> dict[str, str]:
-    """The diagrams by name, each an SVG as a data: URI."""
-    with rc_context(RC):
-        return {
-            "strength": as_uri(_strength(results), "svg"),
-            "stress": as_uri(_stress(results), "svg"),
-            "lid": as_uri(_lid(results), "svg"),
-            "rate": as_uri(_rate(results), "svg"),
-        }
-
-
-def _axes(x: str, y: str) -> tuple[Figure, Axes]:
-    figure = Figure(figsize=SIZE, layout="constrained")
-    axes = figure.add_subplot()
-    axes.set_xlabel(x)
-    axes.set_ylabel(y)
-    return figure, axes
-
-
-def _palette(results: Results) -> dict[float, str]:
-    return colours([shear.sigma for shear in results.shears])
-
-
-def _strength(results: Results) -> Figure:
-    """sigma-tau line through the peaks of the polynomials with its 95 % band, and the peaks of the smoothed data."""
-    figure, axes = _axes("normal stress σ (kPa)", "peak shear stress τ (kPa)")
-    end = 1.12 * max(shear.sigma for shear in results.shears)
-    if results.line and not results.doubts:
-        _draw_line(axes, results.line, end)
-    for shear in results.shears:
-        axes.errorbar(
-            shear.sigma, shear.peak.value, shear.peak.value_error, fmt="o", ms=6, capsize=4, lw=1.4,
-            color=_palette(results)[shear.sigma], mfc="white" if shear.peak.at_boundary or shear.doubt else None, zorder=3,
-        )  # fmt: skip
-        axes.plot(shear.sigma, shear.smoothed.value, "x", ms=6, color=_palette(results)[shear.sigma], zorder=4)
-    axes.set_xlim(0, end)
-    lowest = min(shear.peak.value - shear.peak.value_error for shear in results.shears)
-    highest = max(shear.peak.value + shear.peak.value_error for shear in results.shears)
-    axes.set_ylim(min(0, 1.25 * lowest), 1.25 * highest)
+def stress(results: Results) -> Figure:
+    """Shear stress; its peak is a large hollow mark, that of the smoothed data a cross."""
+    figure, axes = diagram(DISPLACEMENT, "shear stress τ (kPa)")
+    for k, (shear, look) in enumerate(_each(results)):
+        _draw_rows(axes, shear, "tau_kPa", look)
+        _draw_fit(axes, shear, shear.tau.series, look, k)
+        _draw_peak(axes, shear.peak.position, shear.peak.value, look)
+        axes.plot(shear.smoothed.position, shear.smoothed.value, "x", ms=7, mew=1.5, color=look.colour, zorder=5)
+    _finish(axes, results, [s.data["tau_kPa"][s.rows] for s in results.shears])
     return figure
 
 
-def _draw_line(axes: Axes, line: Line, end: float) -> None:
-    sigma = np.linspace(0, end, 100)
-    tau, band = line.c_kPa + line.slope * sigma, line.band(sigma)
-    label = (
-        f"τ = c + σ tan φ\nφ = {line.phi_deg:.1f} ± {line.phi_half_width_deg:.1f}° (fit alone)\n"
-        f"c = {line.c_kPa:.1f} ± {line.c_half_width_kPa:.1f} kPa"
-    )
-    axes.plot(sigma, tau, color="#555d66", lw=1.4, label=label.replace("-", "−"))
-    axes.fill_between(sigma, tau - band, tau + band, color="#555d66", alpha=0.13, lw=0, label="95 % band of the fit")
-    axes.legend(loc="upper left")
-
-
-def _stress(results: Results) -> Figure:
-    """tau against displacement: raw faint, fit strong, its peak ringed, that of the smoothed data crossed."""
-    figure, axes = _axes(DISPLACEMENT, "shear stress τ (kPa)")
-    for shear in results.shears:
-        _draw_curve(axes, shear, "tau_kPa", _palette(results)[shear.sigma])
-        marker = "D" if shear.peak.at_boundary else "o"
-        axes.plot(shear.peak.position, shear.peak.value, marker, ms=5.5, color="white", zorder=4, clip_on=False,
-                  mec=_palette(results)[shear.sigma], mew=1.6)  # fmt: skip
-        axes.plot(shear.smoothed.position, shear.smoothed.value, "x", ms=6, color=_palette(results)[shear.sigma])
-    axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
-    _finish(axes, results)
+def lid(results: Results) -> Figure:
+    """Vertical displacement of the lid, upward positive."""
+    figure, axes = diagram(DISPLACEMENT, "lid displacement, up + (mm)")
+    for k, (shear, look) in enumerate(_each(results)):
+        _draw_rows(axes, shear, "lid_mm", look)
+        _draw_fit(axes, shear, shear.lid.series, look, k)
+        _draw_peak(axes, shear.peak.position, shear.lid.series(shear.peak.position), look)
+    _finish(axes, results, [s.data["lid_mm"][s.rows] for s in results.shears])
     return figure
 
 
-def _lid(results: Results) -> Figure:
-    """Lid displacement (dilatancy, upward positive) against shear displacement."""
-    figure, axes = _axes(DISPLACEMENT, "lid displacement, up (mm)")
-    for shear in results.shears:
-        _draw_curve(axes, shear, "lid_mm", _palette(results)[shear.sigma])
-    axes.axhline(0, color="#8a929b", lw=0.8)
-    _finish(axes, results)
+def dilatancy(results: Results) -> Figure:
+    """Slope of the fitted lid displacement, and the dilation angle; a star is the steepest point."""
+    figure, axes = diagram(DISPLACEMENT, "dilatancy rate, lid/shear (mm/mm)")
+    heights = []
+    for k, (shear, look) in enumerate(_each(results)):
+        rate, zone = shear.lid.series.deriv(), end_zone(shear.lid.span)
+        _draw_fit(axes, shear, rate, look, k, zone)
+        if not shear.peak.at_boundary:  # where the slope of the fit is not held, and beyond the diagram
+            _draw_peak(axes, shear.peak.position, rate(shear.peak.position), look)
+        axes.plot(*steepest_dilatancy(shear.lid), "*", ms=10, color=look.colour, mec="white", mew=0.6, zorder=5)
+        heights.append(rate(np.linspace(zone, shear.lid.span - zone, 200)))
+    _finish(axes, results, heights)
+    angle = axes.secondary_yaxis("right", functions=(_degrees, _slope))
+    angle.set_ylabel("dilation angle ψ (°)")
     return figure
 
 
-def _rate(results: Results) -> Figure:
-    """Slope of the fitted lid displacement; its steepest point and the position of the stress peak are marked."""
-    figure, axes = _axes(DISPLACEMENT, "dilatancy rate, lid/shear (mm/mm)")
-    for shear in results.shears:
-        colour, lid = _palette(results)[shear.sigma], shear.lid
-        s = np.linspace(end_zone(lid.span), lid.span - end_zone(lid.span), 300)
-        axes.plot(s, lid.series.deriv()(s), color=colour, lw=1.7)
-        axes.plot(*steepest_dilatancy(lid), "^", ms=6, color=colour)
-        if not shear.peak.at_boundary:
-            rate = lid.series.deriv()(shear.peak.position)
-            axes.plot(shear.peak.position, rate, "o", ms=5.5, color="white", mec=colour, mew=1.6)
-    axes.axhline(0, color="#8a929b", lw=0.8)
-    _finish(axes, results)
+def stress_ratios(results: Results) -> dict[str, Figure]:
+    """τ/σ by the lid, and by the shear plane where it is known of all stresses: on the same scale."""
+    ratios: dict[str, Callable[[Shear, np.ndarray], np.ndarray]] = {"lid": _by_lid}
+    if results.knows_plane:
+        ratios["plane"] = _by_plane
+    places = [(shear, _places(shear.tau, shear)) for shear in results.shears]
+    heights = [ratio(shear, s) for ratio in ratios.values() for shear, s in places]
+    return {name: _stress_ratio(results, name, ratio, heights) for name, ratio in ratios.items()}
+
+
+def other_columns(results: Results) -> dict[str, Figure]:
+    """A diagram for each of the other columns that the tables of all stresses have, by its name."""
+    names = [name for name in OTHERS if all(name in shear.data for shear in results.shears)]
+    return {name: _column(results, name) for name in names}
+
+
+def _stress_ratio(
+    results: Results, name: str, ratio: Callable[[Shear, np.ndarray], np.ndarray], heights: list[np.ndarray]
+) -> Figure:
+    figure, axes = diagram(DISPLACEMENT, "τ/σ, σ of the lid (–)" if name == "lid" else "τ/σ, σ on the shear plane (–)")
+    for k, (shear, look) in enumerate(_each(results)):
+        s = _places(shear.tau, shear)
+        axes.plot(s, ratio(shear, s), look.mark, **_line(look, k, len(s)))
+        _draw_peak(axes, shear.peak.position, float(ratio(shear, np.array(shear.peak.position))), look)
+    _finish(axes, results, heights)
     return figure
 
 
-def _draw_curve(axes: Axes, shear: Shear, column: str, colour: str) -> None:
-    fit = shear.tau if column == "tau_kPa" else shear.lid
-    s = np.linspace(shear.data["displacement_mm"][shear.rows][0], fit.span, 400)
-    axes.plot(shear.data["displacement_mm"], shear.data[column], color=colour, lw=0.6, alpha=0.35)
-    axes.plot(s, fit.series(s), color=colour, lw=2)
+def _by_lid(shear: Shear, s: np.ndarray) -> np.ndarray:
+    return shear.tau.series(s) / shear.sigma
 
 
-def _finish(axes: Axes, results: Results) -> None:
-    for shear in results.shears:
-        axes.plot([], [], color=_palette(results)[shear.sigma], lw=2, label=f"{shear.sigma:g} kPa")
+def _by_plane(shear: Shear, s: np.ndarray) -> np.ndarray:
+    assert shear.plane is not None
+    return shear.tau.series(s) / shear.plane.fit.series(s)
+
+
+def _column(results: Results, name: str) -> Figure:
+    figure, axes = diagram(DISPLACEMENT, OTHERS[name])
+    for k, (shear, look) in enumerate(_each(results)):
+        s, y = shear.data["displacement_mm"][shear.rows], shear.data[name][shear.rows]
+        axes.plot(s, y, look.mark, **_line(look, k, len(s), 1.2))
+    _finish(axes, results, [s.data[name][s.rows] for s in results.shears])
+    return figure
+
+
+def _each(results: Results) -> list[tuple[Shear, Look]]:
+    of = looks([shear.sigma for shear in results.shears])
+    return [(shear, of[shear.sigma]) for shear in results.shears]
+
+
+def _places(fit: Fit, shear: Shear, zone: float = 0) -> np.ndarray:
+    return np.linspace(max(zone, shear.data["displacement_mm"][shear.rows][0]), fit.span - zone, 400)
+
+
+def _line(look: Look, number: int, points: int, width: float = 1.8) -> dict[str, Any]:
+    """Of the curve of that number: its marks stand between those of the others."""
+    every = points // MARKS
+    return {
+        "color": look.colour,
+        "ls": look.dashes,
+        "lw": width,
+        "ms": 4.5,
+        "markevery": ((number % 4) * every // 4 + every // 8, every),
+    }
+
+
+def _draw_rows(axes: Axes, shear: Shear, column: str, look: Look) -> None:
+    axes.plot(shear.data["displacement_mm"], shear.data[column], color=look.colour, lw=0.5, alpha=0.45, zorder=1)
+
+
+def _draw_fit(axes: Axes, shear: Shear, series: Legendre, look: Look, number: int, zone: float = 0) -> None:
+    s = _places(shear.tau, shear, zone)
+    axes.plot(s, series(s), look.mark, **_line(look, number, len(s)))
+
+
+def _draw_peak(axes: Axes, position: float, value: float, look: Look) -> None:
+    axes.plot(
+        position, value, look.mark, ms=8.5, color="white", mec=look.colour, mew=1.8, zorder=4, clip_on=False
+    )  # fmt: skip
+
+
+def _finish(axes: Axes, results: Results, heights: list[np.ndarray]) -> None:
+    """Axes as high as the curves at full speed: spikes of start and stop do not widen them."""
+    low, high = min(0.0, *(h.min() for h in heights)), max(0.0, *(h.max() for h in heights))
+    margin = MARGIN * (high - low)
+    axes.set_ylim(low - margin * (low < 0), high + margin)
     axes.set_xlim(0, results.identity["travel_mm"])
-    axes.legend(ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0), columnspacing=1.4)
+    axes.axhline(0, color="#8a929b", lw=0.8, zorder=1)
+    name_stresses(axes, looks([shear.sigma for shear in results.shears]))
+
+
+def _degrees(rate: np.ndarray) -> np.ndarray:
+    return np.degrees(np.arctan(rate))
+
+
+def _slope(angle: np.ndarray) -> np.ndarray:
+    return np.tan(np.radians(np.clip(angle, -89, 89)))

@@ -56,14 +56,15 @@ def as_angle(slope: Estimate) -> Estimate:
 
 
 def strength_of_shared(sigma: np.ndarray, tau: np.ndarray) -> EnsembleStrength:
-    """Each specimen is one packing, sheared at all stresses sigma (n,) in kPa; tau (..., specimens, n).
+    """Each specimen is one packing, sheared at all stresses sigma in kPa, (n,) or for each specimen (..., specimens, n);
+    tau (..., specimens, n).
 
     A line for each specimen, and Student's interval over the lines. With the same stresses for all this is exact for
     normal c_j, tan(phi_j) and e_ij, whatever their variances and correlations: the lines are independent and alike
     (Rao, Biometrika 52 (1965) 447; as a practice: Matthews et al., BMJ 300 (1990) 230).
     """
     _need(len(np.unique(sigma)), "stresses")
-    slopes, cohesions = np.moveaxis(tau / sigma @ np.linalg.pinv(_design(sigma)).T, -1, 0)
+    slopes, cohesions = np.moveaxis(np.linalg.pinv(_design(sigma)) @ (tau / sigma)[..., None], -2, 0)[..., 0]
     return EnsembleStrength(as_angle(mean_of(slopes)), mean_of(cohesions))
 
 
@@ -88,8 +89,8 @@ def strength_of_independent(sigma: np.ndarray, tau: np.ndarray) -> EnsembleStren
 
 
 def _design(sigma: np.ndarray) -> np.ndarray:
-    """(n, 2) of (tan(phi), c) in tau / sigma."""
-    return np.column_stack([np.ones_like(sigma), 1 / sigma])
+    """(..., n, 2) of (tan(phi), c) in tau / sigma (..., n)."""
+    return np.stack([np.ones_like(sigma), 1 / sigma], axis=-1)
 
 
 def _need(count: int, what: str) -> None:

@@ -10,9 +10,8 @@ from matplotlib.figure import Figure
 
 from .ensemble_results import Ensemble
 from .mean_curve import Band, MeanCurve
-from .style import RC, as_uri, colours
+from .style import LINE_COLOUR, RC, Look, as_uri, diagram, looks
 
-SIZE = (3.6, 2.9)  # inches
 POINTS = 400  # of a line, at most
 MARGIN = 0.06  # of a scale, above and below what is shown
 INK = "#23282e"
@@ -29,11 +28,11 @@ def draw_ensembles(ensembles: Sequence[Ensemble]) -> list[dict[str, str]]:
     with rc_context(RC):
         for ensemble in ensembles:
             pictures = {"strength": as_uri(_strength(ensemble), "svg")}
-            palette = colours(list(ensemble.curves))
+            look = looks(list(ensemble.curves))
             for sigma, curve in ensemble.curves.items():
-                stress = _curve(curve, curve.tau, sigma, "τ/σ (–)", palette[sigma], ratio)
+                stress = _curve(curve, curve.tau, sigma, "τ/σ (–)", look[sigma], ratio)
                 pictures[f"stress {sigma:g}"] = as_uri(stress, "svg")
-                rise = _curve(curve, curve.lid, 1.0, "lid, up (mm)", palette[sigma], lid)
+                rise = _curve(curve, curve.lid, 1.0, "lid, up (mm)", look[sigma], lid)
                 pictures[f"lid {sigma:g}"] = as_uri(rise, "svg")
             drawn.append(pictures)
     return drawn
@@ -50,16 +49,9 @@ def _limits(bands: Sequence[tuple[Band, float]], include: float) -> Limits:
     return low - MARGIN * (high - low), high + MARGIN * (high - low)
 
 
-def _axes(x: str, y: str) -> tuple[Figure, Axes]:
-    figure = Figure(figsize=SIZE, layout="constrained")
-    axes = figure.add_subplot()
-    axes.set(xlabel=x, ylabel=y)
-    return figure, axes
-
-
-def _curve(curve: MeanCurve, band: Band, over: float, name: str, colour: str, limits: Limits) -> Figure:
+def _curve(curve: MeanCurve, band: Band, over: float, name: str, look: Look, limits: Limits) -> Figure:
     """Mean with both bands; light is the scatter of specimens, dark the error of the mean."""
-    figure, axes = _axes("shear displacement (mm)", name)
+    figure, axes = diagram("shear displacement (mm)", name)
     rows = slice(None, None, -(-len(curve.displacement) // POINTS))
     s, mean = curve.displacement[rows], band.mean[rows] / over
     if curve.count > 1:
@@ -68,8 +60,15 @@ def _curve(curve: MeanCurve, band: Band, over: float, name: str, colour: str, li
             (band.error, 0.45, "± standard error of the mean"),
         ):
             width = half[rows] / over
-            axes.fill_between(s, mean - width, mean + width, color=colour, alpha=alpha, lw=0, label=label)
-    axes.plot(s, mean, color=INK, lw=1.1, label=f"mean of {curve.count}" if curve.count > 1 else "one specimen")
+            axes.fill_between(s, mean - width, mean + width, color=look.colour, alpha=alpha, lw=0, label=label)
+    axes.plot(
+        s,
+        mean,
+        color=INK,
+        ls=look.dashes,
+        lw=1.3,
+        label=f"mean of {curve.count}" if curve.count > 1 else "one specimen",
+    )
     axes.axhline(0, color="#8a929b", lw=0.8)
     axes.set(xlim=(0, s[-1]), ylim=limits)
     axes.legend(
@@ -80,19 +79,19 @@ def _curve(curve: MeanCurve, band: Band, over: float, name: str, colour: str, li
 
 def _strength(ensemble: Ensemble) -> Figure:
     """Peaks of all specimens, their means, and the mean line where there is one."""
-    figure, axes = _axes("normal stress σ (kPa)", "peak shear stress τ (kPa)")
-    palette = colours(list(ensemble.shears))
+    figure, axes = diagram("normal stress σ (kPa)", "peak shear stress τ (kPa)")
+    look = looks(list(ensemble.shears))
     end = 1.12 * max(ensemble.shears)
     for sigma, shears in ensemble.shears.items():
         peaks = [shear.peak.value for shear in shears]
-        axes.plot([sigma] * len(peaks), peaks, "o", ms=4, mfc="none", mec=palette[sigma], alpha=0.8)
-        axes.plot(sigma, np.mean(peaks), "_", ms=16, mew=2, color=palette[sigma])
+        axes.plot([sigma] * len(peaks), peaks, look[sigma].mark, ms=4, mfc="none", mec=look[sigma].colour, alpha=0.8)
+        axes.plot(sigma, np.mean(peaks), "_", ms=16, mew=2, color=look[sigma].colour)
     axes.plot([], [], "o", ms=4, mfc="none", mec=INK, label="peak of a specimen")
     axes.plot([], [], "_", ms=14, mew=2, color=INK, label="mean of the peaks")
     if ensemble.strength:
         s, phi, c = np.array([0, end]), ensemble.strength.phi_deg, ensemble.strength.c_kPa
         label = f"φ = {phi.value:.1f}° [{phi.low:.1f}, {phi.high:.1f}], c = {c.value:.1f} kPa".replace("-", "−")
-        axes.plot(s, c.value + s * np.tan(np.radians(phi.value)), color="#555d66", lw=1.3, label=label)
+        axes.plot(s, c.value + s * np.tan(np.radians(phi.value)), color=LINE_COLOUR, lw=1.3, label=label)
     axes.set_xlim(0, end)
     axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
     axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), fontsize=7, alignment="left")

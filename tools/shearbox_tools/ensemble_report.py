@@ -6,9 +6,6 @@ from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from os import sched_getaffinity
 from pathlib import Path
-from typing import Any
-
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from .ensemble_curves import draw_ensembles
 from .ensemble_results import Ensemble
@@ -17,8 +14,11 @@ from .errors import ShearboxError
 from .files import PAGE, SUMMARY, write_json, write_text
 from .grouping import LeftOut, put_together
 from .mean_curve import as_csv
-from .report import TEMPLATES, minus, number, write_report
+from .page import render
+from .report import write_report
 from .results import Results, read_results
+
+TEMPLATE = "ensemble.html.j2"
 
 
 def report_on_runs(
@@ -42,7 +42,7 @@ def report_on_runs(
     summary = summarise_all(folder, ensembles, left_out, tables)
     write_json(folder / SUMMARY, summary)
     page = folder / PAGE
-    write_text(page, _page(folder, summary, ensembles))
+    write_text(page, render(TEMPLATE, summary=summary, pictures=draw_ensembles(ensembles), name=folder.resolve().name))
     problems = [one.reason for one in unread] + [problem for run in read for problem in run.problems]
     if problems:
         raise ShearboxError(f"{page} is written, but not all files can be read:\n" + "\n".join(problems))
@@ -85,18 +85,3 @@ def _read_one(folder: Path) -> Results | str:
         if not results.problems:  # these are told with the ensemble
             return str(error)
     return results
-
-
-def _page(folder: Path, summary: dict[str, Any], ensembles: Sequence[Ensemble]) -> str:
-    environment = Environment(
-        loader=FileSystemLoader(TEMPLATES),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters["number"] = number
-    environment.filters["minus"] = minus
-    return environment.get_template("ensemble.html.j2").render(
-        summary=summary, pictures=draw_ensembles(ensembles), name=folder.resolve().name
-    )

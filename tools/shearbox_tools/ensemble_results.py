@@ -11,7 +11,6 @@ import numpy as np
 from .ensemble import EnsembleStrength, Estimate, as_angle, mean_of, strength_of_independent, strength_of_shared
 from .features import peak_at_steepest, proportional
 from .mean_curve import MeanCurve, average
-from .peak import Peak
 from .results import Results
 from .shear import Shear
 from .strength import fit_line
@@ -83,21 +82,29 @@ class Ensemble:
     @cached_property
     def strength(self) -> EnsembleStrength | None:
         """By the peaks of the polynomials."""
-        return self._strength(lambda shear: shear.peak)
+        return self._strength(lambda shear: (shear.sigma, shear.peak.value))
 
     @cached_property
     def smoothed_strength(self) -> EnsembleStrength | None:
         """By those of the smoothed data."""
-        return self._strength(lambda shear: shear.smoothed)
+        return self._strength(lambda shear: (shear.sigma, shear.smoothed.value))
 
-    def _strength(self, peak: Callable[[Shear], Peak]) -> EnsembleStrength | None:
+    @cached_property
+    def plane_strength(self) -> EnsembleStrength | None:
+        """By the peaks of the polynomials at the normal stresses on the shear plane, where these are known."""
+        if not all(specimen.knows_plane for specimen in self.specimens):
+            return None
+        return self._strength(lambda shear: (shear.plane.at_peak if shear.plane else np.nan, shear.peak.value))
+
+    def _strength(self, point: Callable[[Shear], tuple[float, float]]) -> EnsembleStrength | None:
+        """Of points (sigma, tau) in kPa."""
         if self.doubts:
             return None
         if self.independent:
-            points = np.array([(s.sigma, peak(s).value) for shears in self.shears.values() for s in shears])
-            return strength_of_independent(*points.T)
-        tau = np.array([[peak(shear).value for shear in self.shears[sigma]] for sigma in self.common]).T
-        return strength_of_shared(np.array(self.common), tau)
+            sigma, tau = np.array([point(shear) for shears in self.shears.values() for shear in shears]).T
+            return strength_of_independent(sigma, tau)
+        sigma, tau = np.array([[point(shear) for shear in self.shears[sigma]] for sigma in self.common]).T
+        return strength_of_shared(sigma, tau)
 
     @cached_property
     def ultimate_angle(self) -> Estimate | None:

@@ -47,6 +47,7 @@ def _ensemble(folder: Path, ensemble: Ensemble) -> dict[str, Any]:
         "doubts": ensemble.doubts,
         **_strength(ensemble.strength, ""),
         **_strength(ensemble.smoothed_strength, "_smoothed"),
+        **_strength(ensemble.plane_strength, "_plane"),
         "fit_alone": _fit_alone(ensemble),
         "phi_ultimate_deg": _estimate(ensemble.ultimate_angle),
         "dilation_at_peak_deg": _estimate(ensemble.over_specimens(lambda shear: shear.at_peak.dilation_deg)),

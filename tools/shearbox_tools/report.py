@@ -6,21 +6,22 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from matplotlib import rc_context
 
-from .curves import draw_curves
-from .display import duration
-from .drawing import draw_specimen
+from . import curves, states
+from .drawing import Stills, draw_specimens
 from .errors import ShearboxError
 from .files import CURVE, PAGE, SUMMARY, write_json, write_text
 from .models import PARAMETERS, read_comments
+from .page import render
 from .results import Results, read_results
 from .shear import Shear
 from .specimen import Film, missing_frames
 from .strength import KNOWN_SCATTER
+from .style import RC, as_uri
 from .summary import phase_logs, summarise
 
-TEMPLATES = Path(__file__).parent / "templates"
+PAGE_TEMPLATE = "report.html.j2"
 
 
 def report(folder: Path) -> Path:
@@ -36,31 +37,47 @@ def write_report(results: Results) -> Path:
     folder = results.folder
     if not results.shears:
         raise ShearboxError(f"{folder}: nothing to report on yet\n" + "\n".join([*results.problems, *results.notes]))
-    pictures = _pictures(results)
+    specimens = _specimens(results)
     summary = summarise(results)
     for shear in results.shears:
         write_text(shear.folder / CURVE, _curve(shear))
     write_json(folder / SUMMARY, summary)
     page = folder / PAGE
-    write_text(page, _page(results, summary, pictures))
+    write_text(page, _page(results, summary, specimens))
     if results.problems:
         raise ShearboxError(f"{page} is written, but not all files can be read:\n" + "\n".join(results.problems))
     return page
 
 
-def _pictures(results: Results) -> dict[str, str]:
-    """Data URIs by name: the diagrams, and a picture of the specimen per stress where its dumps can be read."""
-    pictures = draw_curves(results)
+def _diagrams(results: Results) -> dict[str, str]:
+    """SVGs as data: URIs by name; of further columns of the tables 'column NAME'."""
+    with rc_context(RC):
+        figures = {
+            "strength": states.strength(results),
+            "stress": curves.stress(results),
+            "lid": curves.lid(results),
+            "dilatancy": curves.dilatancy(results),
+            **{f"ratio by {by}": figure for by, figure in curves.stress_ratios(results).items()},
+            "stress paths": states.stress_paths(results),
+            "stress dilatancy": states.stress_dilatancy(results),
+            **{f"column {name}": figure for name, figure in curves.other_columns(results).items()},
+        }
+        return {name: as_uri(figure, "svg") for name, figure in figures.items()}
+
+
+def _specimens(results: Results) -> dict[float, Stills]:
+    """By stress (kPa), where the dumps can be read."""
+    specimens = {}
     for shear in results.shears:
         if missing_frames(shear.folder):
             continue  # there is a note
         try:
             film = Film(shear.folder, shear.data["step"], shear.data["displacement_mm"])
-            pictures[f"specimen {shear.sigma:g}"] = draw_specimen(film, shear.peak.position)
+            specimens[shear.sigma] = Stills.of(film, shear.peak.position)
         except ShearboxError as error:
             if str(error) not in results.problems:  # the search for lost grains may have met it before
                 results.problems.append(str(error))
-    return pictures
+    return specimens
 
 
 def _curve(shear: Shear) -> str:
@@ -69,6 +86,8 @@ def _curve(shear: Shear) -> str:
     columns = {name: column for name, column in shear.data.items() if name != "step"}
     columns["step"] = shear.data["step"]
     columns["tau_fit_kPa"] = shear.tau.series(s)
+    if shear.plane:
+        columns["plane_fit_kPa"] = shear.plane.fit.series(s)
     columns["lid_fit_mm"] = shear.lid.series(s)
     columns["dilatancy_rate"] = shear.lid.series.deriv()(s)
     text = io.StringIO()
@@ -78,22 +97,15 @@ def _curve(shear: Shear) -> str:
     return text.getvalue()
 
 
-def _page(results: Results, summary: dict[str, Any], pictures: dict[str, str]) -> str:
-    environment = Environment(
-        loader=FileSystemLoader(TEMPLATES),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters["duration"] = duration
-    environment.filters["number"] = number
-    environment.filters["minus"] = minus
-    return environment.get_template("report.html.j2").render(
-        summary=summary, shears=results.shears, line=results.line, pictures=pictures, logs=phase_logs(results),
-        consolidations=results.consolidations, known_scatter=KNOWN_SCATTER,
-        comments=_comments(results.model_file),
+def _page(results: Results, summary: dict[str, Any], specimens: dict[float, Stills]) -> str:
+    """Its size in MB is told on itself."""
+    values = dict(
+        summary=summary, line=results.line, plane_line=results.plane_line, knows_plane=results.knows_plane, diagrams=_diagrams(results),
+        pictures=draw_specimens(specimens), specimens=specimens, column_titles=curves.OTHERS, logs=phase_logs(results),
+        consolidations=[(f"{sigma:g}", bed) for sigma, bed in results.consolidations.items()], known_scatter=KNOWN_SCATTER, comments=_comments(results.model_file),
     )  # fmt: skip
+    size = len(render(PAGE_TEMPLATE, **values, size_MB=0))
+    return render(PAGE_TEMPLATE, **values, size_MB=size / 1e6)
 
 
 def _comments(model: Path) -> dict[str, str]:
@@ -103,13 +115,3 @@ def _comments(model: Path) -> dict[str, str]:
         return {**read_comments(PARAMETERS), **{f"model {k}": text for k, text in of_model.items()}}
     except ShearboxError:
         return {}
-
-
-def number(value: float | None, digits: int = 4) -> str:
-    """A number as people write it; a dash for what is not known."""
-    return "–" if value is None else minus(f"{value:.{digits}g}".replace("e-0", "e-").replace("e+0", "e"))
-
-
-def minus(text: str) -> str:
-    """The text with a minus sign for its hyphen, and none before a zero."""
-    return text.lstrip("+-") if not text.strip("+-0.") else text.replace("-", "−")

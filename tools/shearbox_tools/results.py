@@ -13,8 +13,10 @@ from .errors import ShearboxError
 from .features import proportional
 from .files import CONSOLIDATED_TABLE, GRAINS_DUMP, PACKED, PACKED_TABLE, SHEAR_TABLE, stress_folder
 from .motion import full_speed
+from .notes import Remark, said_once
 from .peak import Peak
 from .phases import rows_of_shear
+from .plane import line_on_plane
 from .polynomial import FEWEST_ROWS
 from .readers import read_row, read_shear
 from .request import read_record
@@ -60,6 +62,19 @@ class Results:
         """The same through the peaks of the smoothed data."""
         return self._line([shear.smoothed for shear in self.shears])
 
+    @property
+    def knows_plane(self) -> bool:
+        """Whether the normal stress on the shear plane is known at all stresses."""
+        return all(shear.plane for shear in self.shears)
+
+    @cached_property
+    def plane_line(self) -> Line | None:
+        """The first again at the normal stresses on the shear plane, where these are known."""
+        planes = [shear.plane for shear in self.shears if shear.plane]
+        if not self.knows_plane or len(planes) < 2:
+            return None
+        return line_on_plane([shear.peak for shear in self.shears], planes)
+
     @cached_property
     def ultimate_angle(self) -> Estimate | None:
         """Angle (degrees) whose tangent is the mean of tau / sigma at the end, with its interval over the stresses."""
@@ -86,7 +101,7 @@ def read_results(folder: Path) -> Results:
     """Read and analyse; what is damaged becomes a problem, and the rest is read all the same."""
     record = read_record(folder)
     problems: list[str] = []
-    notes: list[str] = []
+    remarks: list[Remark] = []
     consolidations: dict[float, dict[str, float]] = {}
     shears = []
     packing = _optional(folder / PACKED / PACKED_TABLE, problems)
@@ -94,12 +109,13 @@ def read_results(folder: Path) -> Results:
         row = _optional(stress_folder(folder, sigma) / CONSOLIDATED_TABLE, problems)
         if row is not None:
             consolidations[sigma] = row
-        shear = _read_shear(folder, sigma, record["identity"], row or {}, problems, notes)
+        shear = _read_shear(folder, sigma, record["identity"], row or {}, problems, remarks)
         if shear is not None:
             shears.append(shear)
-            notes += shear.notes
+            remarks += [(sigma, text) for text in shear.remarks]
     identity, stresses = record["identity"], record["stresses"]
     model_file = Path(record.get("model_file", ""))
+    notes = said_once(remarks)
     return Results(folder, identity, model_file, stresses, packing, consolidations, shears, problems, notes)
 
 
@@ -109,12 +125,12 @@ def _read_shear(
     identity: dict[str, Any],
     bed: dict[str, float],
     problems: list[str],
-    notes: list[str],
+    remarks: list[Remark],
 ) -> Shear | None:
     place = stress_folder(folder, sigma)
     path = place / SHEAR_TABLE
     if not path.exists():
-        notes.append(f"{sigma:g} kPa has not been sheared yet")
+        remarks.append((sigma, "not sheared yet"))
         return None
     try:
         data = read_shear(path)
@@ -123,12 +139,11 @@ def _read_shear(
         return None
     rows = full_speed(data)
     if rows.stop - rows.start < FEWEST_ROWS:
-        notes.append(f"{sigma:g} kPa has {rows.stop - rows.start} rows at full speed only, too few to fit a curve")
+        remarks.append((sigma, f"{rows.stop - rows.start} rows at full speed only, too few to fit a curve"))
         return None
     if missing := missing_frames(place):
-        notes.append(
-            f"{sigma:g} kPa has no {', '.join(missing)} and so no picture; without {path} it would be run again"
-        )
+        without = f"no {', '.join(missing)} and so no picture; without its {SHEAR_TABLE} it would be run again"
+        remarks.append((sigma, without))
     lost = None if GRAINS_DUMP in missing else _lost(place, identity, problems)
     complete = len(data["step"]) == rows_of_shear()
     return analyse(sigma, place, data, rows, complete, identity, bed, lost)

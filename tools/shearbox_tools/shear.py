@@ -12,6 +12,7 @@ from scipy.stats import linregress
 
 from .features import dilates, peak_at_steepest
 from .peak import Peak, find_peak
+from .plane import OnPlane, on_plane
 from .polynomial import Fit, fit_curve
 from .quasistatic import Inertia, imbalance_percent, inertial_number
 from .readers import Columns
@@ -88,24 +89,25 @@ class Shear:
         }
 
     @property
-    def notes(self) -> list[str]:
-        """What a reader of the numbers must know."""
-        notes, where = [], f"{self.sigma:g} kPa"
-        if not self.complete:
-            notes.append(f"{where} has reached {self.reached:.2f} mm only")
-        elif self.doubt:
-            notes.append(f"{where}: the peak cannot be judged: {self.doubt}")
+    def remarks(self) -> list[str]:
+        """What a reader of the numbers must know; numbers that the report has elsewhere are not in it."""
+        remarks = []
+        if self.doubt:
+            remarks.append(self.doubt if not self.complete else f"the peak cannot be judged: {self.doubt}")
         if self.peak.at_boundary:
-            at = f"{self.peak.position:.2f} mm"
-            notes.append(f"{where}: τ has no peak within the travel; its greatest value, at {at}, is taken")
+            remarks.append("τ has no peak within the travel; its greatest value is taken")
         if self.peaks_differ:
-            notes.append(
-                f"{where}: the polynomial's peak, {_of(self.peak)}, is not that of the smoothed data, "
-                f"{_of(self.smoothed)}; it misses the data by {self.residual:.1f} kPa (root mean square)"
+            remarks.append(
+                "the polynomial's peak is not that of the smoothed data: they are apart by more than their errors"
             )
         if self.verdicts["quasi_static"].holds is False:
-            notes.append(f"{where}: not quasi-static: {self.verdicts['quasi_static'].reason}; shear more slowly")
-        return notes
+            remarks.append("not quasi-static; shear more slowly")
+        return remarks
+
+    @cached_property
+    def plane(self) -> OnPlane | None:
+        """Normal stress on the shear plane, where the table has it."""
+        return on_plane(self.data, self.rows, self.peak)
 
     @cached_property
     def ultimate(self) -> tuple[float, float]:
@@ -175,7 +177,3 @@ def _inertial_number(sigma: float, identity: dict[str, Any], bed: dict[str, floa
     except (KeyError, ValueError, ZeroDivisionError):
         return None
     return inertial_number(identity["speed_mm_s"] / 1000, 1000 * sigma, area, density, height)
-
-
-def _of(peak: Peak) -> str:
-    return f"{peak.value:.0f} ± {peak.value_error:.0f} kPa at {peak.position:.2f} mm"

@@ -64,6 +64,15 @@ class Dilatant:
         return abs(self.dilation_deg) <= CRITICAL_DEG
 
 
+def rowe_ratio(rate: np.ndarray, critical_deg: float) -> np.ndarray:
+    """tau / sigma at rates of dilatancy (mm/mm) by Rowe's relation, with phi_cv in degrees."""
+    psi = np.arctan(rate)
+    dilation = (1 + np.sin(psi)) / (1 - np.sin(psi))
+    ratio = _principal_ratio(critical_deg) * dilation
+    sine = (ratio - 1) / (ratio + 1)
+    return sine * np.cos(psi) / (1 - sine * np.sin(psi))
+
+
 def ultimate_rows(rows: int) -> slice:
     """The last fifth of so many rows, at least two."""
     return slice(-max(2, int(ULTIMATE_SHARE * rows)), None)

@@ -1,17 +1,45 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How pictures look, in one place."""
+"""How pictures look, in one place. Curves differ by colour, dashes and mark: any one of them tells them apart."""
 
 import base64
 import io
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
 
 import matplotlib
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 matplotlib.use("Agg")
 
-PAPER_COLOURS = {100: "#1f4fd8", 200: "#d62728", 300: "#1a9641", 400: "#111111"}  # blue, red, green, black
-OTHER_COLOURS = ("#e08214", "#7b3294", "#17a2b8", "#8c510a", "#c51b7d", "#4d4d4d")
 
+@dataclass(frozen=True)
+class Look:
+    """Of all that belongs to one normal stress."""
+
+    colour: str
+    dashes: Any  # a line style of matplotlib
+    mark: str
+
+
+PAPER_LOOKS = {  # blue, red, green, black
+    100: Look("#1f4fd8", "-", "o"),
+    200: Look("#d62728", (0, (6, 1.6)), "s"),
+    300: Look("#1a9641", (0, (7, 1.6, 1.4, 1.6)), "^"),
+    400: Look("#111111", (0, (1.4, 1.2)), "D"),
+}
+OTHER_LOOKS = (
+    Look("#e08214", (0, (10, 2)), "v"),
+    Look("#7b3294", (0, (3, 1.4)), "P"),
+    Look("#17a2b8", (0, (7, 1.4, 1.4, 1.4, 1.4, 1.4)), "<"),
+    Look("#8c510a", (0, (4, 3)), "X"),
+    Look("#c51b7d", (0, (1.4, 2.6)), ">"),
+    Look("#4d4d4d", (0, (12, 2, 3, 2)), "h"),
+)
+LINE_COLOUR = "#555d66"  # of what belongs to no stress
+
+SIZE = (4.4, 3.4)  # of a diagram, inches: text is readable where three of them stand side by side, and on a phone
 RC = {
     "font.family": "sans-serif",
     "font.sans-serif": ["DejaVu Sans"],
@@ -32,16 +60,36 @@ RC = {
 }
 
 
-def colours(stresses: list[float]) -> dict[float, str]:
-    """The paper's colour for its four stresses, others in order of appearance."""
-    others = iter(OTHER_COLOURS * (1 + len(stresses) // len(OTHER_COLOURS)))
-    return {s: PAPER_COLOURS.get(int(s) if s == int(s) else -1) or next(others) for s in stresses}
+def looks(stresses: Sequence[float]) -> dict[float, Look]:
+    """Those of the paper for its four stresses, others in order of appearance."""
+    others = iter(OTHER_LOOKS * (1 + len(stresses) // len(OTHER_LOOKS)))
+    return {s: PAPER_LOOKS.get(int(s) if s == int(s) else -1) or next(others) for s in stresses}
+
+
+def diagram(x: str, y: str) -> tuple[Figure, Axes]:
+    """An empty diagram with the names of its axes."""
+    figure = Figure(figsize=SIZE, layout="constrained")
+    axes = figure.add_subplot()
+    axes.set_xlabel(x)
+    axes.set_ylabel(y)
+    return figure, axes
+
+
+def name_stresses(axes: Axes, of: dict[float, Look]) -> None:
+    """A legend of the stresses, above the diagram."""
+    for sigma, look in of.items():
+        axes.plot([], [], look.mark, color=look.colour, ls=look.dashes, lw=1.8, ms=4.5, label=f"{sigma:g} kPa")
+    axes.legend(
+        ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0), columnspacing=1.2, handlelength=2.8, handletextpad=0.5
+    )
 
 
 def as_uri(figure: Figure, kind: str) -> str:
-    """The figure as a data: URI, 'svg' or 'png', to be embedded in a page."""
+    """The figure as a data: URI, 'svg', or for what has thousands of parts 'webp', to be embedded in a page."""
     buffer = io.BytesIO()
-    metadata = {"Date": None} if kind == "svg" else None
-    figure.savefig(buffer, format=kind, dpi=200, metadata=metadata)
-    mime = "image/svg+xml" if kind == "svg" else "image/png"
+    if kind == "svg":
+        figure.savefig(buffer, format=kind, metadata={"Date": None})
+    else:
+        figure.savefig(buffer, format=kind, dpi=200, pil_kwargs={"quality": 85})
+    mime = "image/svg+xml" if kind == "svg" else f"image/{kind}"
     return f"data:{mime};base64,{base64.b64encode(buffer.getvalue()).decode()}"

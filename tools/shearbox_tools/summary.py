@@ -52,6 +52,7 @@ def _strength(results: Results) -> dict[str, Any]:
     line, smoothed, ultimate = results.line, results.smoothed_line, results.ultimate_angle
     if not (line and smoothed and ultimate) or results.doubts:
         return {"phi_deg": None, "c_kPa": None, "doubts": results.doubts}
+    plane = results.plane_line
     return {
         "phi_deg": line.phi_deg,
         "phi_half_width_deg": line.phi_half_width_deg,
@@ -64,6 +65,10 @@ def _strength(results: Results) -> dict[str, Any]:
         "r_squared": line.r_squared,
         "chi2_reduced": line.chi2_reduced,
         "phi_through_origin_deg": line.phi_through_origin_deg,
+        "phi_plane_deg": plane.phi_deg if plane else None,
+        "phi_plane_half_width_deg": plane.phi_half_width_deg if plane else None,
+        "c_plane_kPa": plane.c_kPa if plane else None,
+        "c_plane_half_width_kPa": plane.c_half_width_kPa if plane else None,
         "phi_smoothed_deg": smoothed.phi_deg,
         "phi_smoothed_half_width_deg": smoothed.phi_half_width_deg,
         "c_smoothed_kPa": smoothed.c_kPa,
@@ -104,6 +109,9 @@ def _stress(results: Results, shear: Shear) -> dict[str, Any]:
         "displacement_at_steepest_mm": steepest,
         "tau_ultimate_kPa": shear.ultimate[0],
         "tau_ultimate_error_kPa": shear.ultimate[1],
+        "plane_at_peak_kPa": shear.plane.at_peak if shear.plane else None,
+        "plane_at_peak_error_kPa": shear.plane.at_peak_error if shear.plane else None,
+        "plane_at_end_kPa": shear.plane.at_end if shear.plane else None,
         "at_peak": _dilatancy(shear.at_peak),
         "at_end": _dilatancy(shear.at_end),
         "trm": float(shear.data["trm"][-1]),

@@ -15,9 +15,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 sys.path.insert(0, str(ROOT / "tools"))
-from shearbox_tools.style import OTHER_COLOURS, RC  # noqa: E402
+from shearbox_tools.style import OTHER_LOOKS, RC  # noqa: E402
 
-COLOURS = {"direct": "#111111", "incremental": OTHER_COLOURS[0]}
+COLOURS = {"direct": "#111111", "incremental": OTHER_LOOKS[0].colour}
 Found = list[tuple[Job, Values]]
 
 

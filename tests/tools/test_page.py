@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The report in a browser: on a phone, a tablet, a desk, and on paper, nothing is cut off and nothing overlaps."""
+
+import html
+import json
+import os
+import re
+import shutil
+import subprocess
+from collections import Counter
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+import synthetic
+
+from shearbox_tools.models import INPUT, find_model, read_variables
+from shearbox_tools.report import report
+from shearbox_tools.request import Request
+
+LAYOUT = Path(__file__).with_name("layout.js")
+STRESSES = (100.0, 200.0, 300.0, 400.0)
+WIDTHS = (390, 900, 1400)  # px
+A4 = (595.3, 841.9)  # points
+TITLE_HEIGHT = 18.6  # of a box of letters of 16 points
+
+SHEET = re.compile(r'<page width="(.*?)" height="(.*?)">')
+WORD = re.compile(r'<word .*? yMin="(.*?)" .*? yMax="(.*?)">(.*?)</word>')
+
+MISSING = [program for program in ("chromium", "pdftotext", "pdfimages") if not shutil.which(program)]
+pytestmark = pytest.mark.skipif(
+    bool(MISSING), reason=f"no {', '.join(MISSING)}: tools/setup --ci installs chromium and poppler-utils"
+)
+
+
+@pytest.fixture(name="page", scope="module")
+def _page(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The report of four stresses with all columns that it knows, and pictures of one of them."""
+    folder = tmp_path_factory.mktemp("run")
+    model = find_model("TypeA_10x5_4-8_1-circle_350")
+    identity = Request(model, STRESSES).identity(read_variables(INPUT / "parameters.in"))
+    (folder / "run.json").write_text(json.dumps({"identity": identity, "stresses": STRESSES}), encoding="utf-8")
+    (folder / "packed").mkdir()
+    synthetic.write_row(folder / "packed" / "packed.csv", **synthetic.bed())
+    for sigma in STRESSES:
+        place = folder / f"{sigma:g}"
+        place.mkdir()
+        synthetic.write_row(place / "consolidated.csv", **synthetic.bed())
+        curves = synthetic.curves(sigma, 8)
+        curves["plane_kPa"] = sigma + 0.3 * curves["tau_kPa"]
+        synthetic.write_shear(place / "shear.dat", curves)
+    synthetic.write_frames(folder / "100", [0, 2000000, 4000000], 8)
+    return report(folder)
+
+
+def chromium(folder: Path, *arguments: str) -> str:
+    """What it prints; without a sandbox, as root has to run it, and without a bus that it would wait for."""
+    buses = {f"DBUS_{name}_BUS_ADDRESS": "unix:path=/dev/null" for name in ("SESSION", "SYSTEM")}
+    command = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={folder / 'profile'}"]
+    done = subprocess.run(
+        [*command, *arguments], env=os.environ | buses, check=True, capture_output=True, text=True, timeout=60
+    )
+    return done.stdout
+
+
+def faults(pages: list[tuple[str, int]], folder: Path) -> list[list[str]]:
+    """What layout.js finds wrong with each of the pages, shown in a frame of so many px."""
+    frames = "".join(
+        f'<iframe style="width: {width}px; height: 800px; border: 0" srcdoc="{html.escape(page)}"></iframe>'
+        for page, width in pages
+    )
+    look = "[...document.querySelectorAll('iframe')].map(f => faults(f.contentDocument))"
+    tell = f"onload = () => {{ const found = JSON.stringify({look}); document.body.textContent = found; }}"
+    harness = folder / "harness.html"
+    script = LAYOUT.read_text(encoding="utf-8")
+    harness.write_text(
+        f'<!DOCTYPE html><meta charset="utf-8"><body>{frames}<script>{script}\n{tell}</script>', encoding="utf-8"
+    )
+    shown = chromium(folder, "--dump-dom", harness.as_uri())
+    body = re.search(r"<body>(.*)</body>", shown, re.DOTALL)
+    assert body, shown[:1000]
+    found: list[list[str]] = json.loads(html.unescape(body[1]))
+    return found
+
+
+def test_on_screens(page: Path, tmp_path: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    found = faults([(text, width) for width in WIDTHS], tmp_path)
+    assert dict(zip(WIDTHS, found)) == {width: [] for width in WIDTHS}
+
+
+BROKEN = {
+    "beyond the page: <p": '<p style="width: 500px">too wide</p>',
+    "cut off: <p": '<p style="width: 90px; overflow: hidden; white-space: nowrap">longer than its paragraph is</p>',
+    "cut off: <div": '<div style="height: 9px; overflow: hidden">lower than a line</div>',
+    "text on text: 'one' and 'other'": '<p style="margin: 0">one</p><p style="margin: -18px 0">other</p>',
+    "no picture: nothing": '<img alt="nothing" src="data:image/png;base64,AAAA">',
+}
+
+
+def test_faults_are_found(tmp_path: Path) -> None:
+    """Each by itself: it, and no other, is named."""
+    start = '<!DOCTYPE html><meta charset="utf-8"><body style="margin: 0; font: 15px/20px sans-serif">'
+    found = faults([(start + text, 390) for text in BROKEN.values()], tmp_path)
+    for wanted, names in zip(BROKEN, found):
+        assert [name[: len(wanted)] for name in names] == [wanted]
+
+
+class Body(HTMLParser):
+    """What is written in the body of a page."""
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.text = ""
+        self.feed(page.split("<body>")[1])
+
+    def handle_data(self, data: str) -> None:
+        self.text += data
+
+
+def letters(text: str) -> Counter[str]:
+    return Counter("".join(text.split()))
+
+
+def faults_on_paper(page: Path, folder: Path) -> list[str]:
+    """What is wrong with the page on A4: letters that are gone, as those beyond the margins are; pictures cut in two;
+    and all of it made smaller, which is what chromium does where something is too wide."""
+    paper = folder / "page.pdf"
+    chromium(folder, f"--print-to-pdf={paper}", "--no-pdf-header-footer", page.as_uri())
+    text = output("pdftotext", "-bbox", paper, "-")
+    words = WORD.findall(text)
+    lost = letters(Body(page.read_text(encoding="utf-8")).text) - letters(html.unescape("".join(w for *_, w in words)))
+    pictures = Counter(row.split()[10] for row in output("pdfimages", "-list", paper).splitlines()[2:])
+    top, bottom, _ = words[0]
+    return [
+        *(f"{count} of {letter!r} are gone" for letter, count in lost.items()),
+        *(f"cut in two: picture {number}" for number, count in pictures.items() if count > 1),
+        *(["made smaller"] if float(bottom) - float(top) < 0.97 * TITLE_HEIGHT else []),
+        *(f"page of {size}" for size in SHEET.findall(text) if tuple(map(float, size)) != pytest.approx(A4, abs=1)),
+    ]
+
+
+def output(*command: str | Path) -> str:
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def test_on_paper(page: Path, tmp_path: Path) -> None:
+    assert faults_on_paper(page, tmp_path) == []
+
+
+PAPER = (
+    "<!DOCTYPE html><style>@page { size: A4; margin: 14mm 13mm } body { margin: 0 } h1 { font-size: 16pt }</style>"
+    "<body><h1>Title</h1>"
+)
+DOT = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAIAAAD91JpzAAAAFklEQVR4nGP8z8DAwMDAxMDAwMDAAAANHQEDasKb6QAAAABJRU5ErkJggg=="
+
+
+WIDE = '<p style="width: 300mm">wide</p>'
+NARROW = '<p style="width: 9mm; overflow: hidden; white-space: nowrap">no longer just here</p>'
+OUTSIDE = '<p style="margin-left: -9mm">quit</p>'
+TALL = f'<img style="width: 10mm; height: 400mm" src="{DOT}">'
+
+
+@pytest.mark.parametrize(
+    "body, wanted",
+    [(WIDE, ["made smaller"]), (NARROW + OUTSIDE + TALL, ["1 of 'j' are gone", "1 of 'q' are gone", "cut in two"])],
+    ids=["wide", "cut"],
+)
+def test_faults_on_paper_are_found(tmp_path: Path, body: str, wanted: list[str]) -> None:
+    page = tmp_path / "broken.html"
+    page.write_text(PAPER + body, encoding="utf-8")
+    found = faults_on_paper(page, tmp_path)
+    assert [one for one in wanted if not any(name.startswith(one) for name in found)] == [], found

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""HTML pages, each a single file that opens without a network."""
+
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+from .display import duration
+
+TEMPLATES = Path(__file__).parent / "templates"
+
+
+def render(template: str, **values: Any) -> str:
+    """The page that a template of the folder `templates` makes of the values; those it names must be there."""
+    environment = Environment(
+        loader=FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters.update(duration=duration, number=number, minus=minus)
+    return environment.get_template(template).render(**values)
+
+
+def number(value: float | None, digits: int = 4) -> str:
+    """A number as people write it; a dash for what is not known."""
+    return "–" if value is None else minus(f"{value:.{digits}g}".replace("e-0", "e-").replace("e+0", "e"))
+
+
+def minus(text: str) -> str:
+    """The text with a minus sign for its hyphen, and none before a zero."""
+    return text.lstrip("+-") if not text.strip("+-0.") else text.replace("-", "−")
