@@ -51,6 +51,16 @@ def test_points_that_share_a_packing_are_not_independent() -> None:
     assert phi < 0.93 and c > 0.97, (phi, c)
 
 
+def test_each_specimen_may_have_stresses_of_its_own() -> None:
+    """As those on the shear plane are: lines of its own slope and cohesion are found, and their means."""
+    slopes, cohesions = np.array([0.5, 0.6, 0.8]), np.array([1.0, 5.0, 9.0])
+    sigma = SIGMA * np.array([[1.0, 1.1, 0.9, 1.0], [1.2, 1.1, 1.0, 0.9], [1.0, 1.0, 1.3, 1.1]])
+    found = strength_of_shared(sigma, cohesions[:, None] + slopes[:, None] * sigma)
+    assert np.tan(np.radians(found.phi_deg.value)) == pytest.approx(slopes.mean())
+    assert found.c_kPa.value == pytest.approx(cohesions.mean())
+    assert found.c_kPa.deviation == pytest.approx(cohesions.std(ddof=1))
+
+
 def test_a_line_through_independent_points_is_that_of_scipy() -> None:
     sigma, tau = np.tile(SIGMA, 3), peaks(3, False, seed=4)[0].ravel()
     line = stats.linregress(1 / sigma, tau / sigma)

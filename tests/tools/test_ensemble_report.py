@@ -19,6 +19,7 @@ from shearbox_tools.models import INPUT, find_model, read_variables
 from shearbox_tools.reporting import report_on
 from shearbox_tools.request import Request
 from shearbox_tools.results import Results, read_results
+from shearbox_tools.shear import Shear
 from shearbox_tools.specimens import find_runs
 from shearbox_tools.stress_dilatancy import Dilatant
 
@@ -130,6 +131,20 @@ def test_strength_is_that_of_the_specimens_own_lines(runs):
     assert float(ensemble.strength.phi_deg.value) == pytest.approx(np.degrees(np.arctan(slope)))
     ratios = [np.mean([s.at_end.ratio for s in run.shears]) for run in runs]
     assert float(ensemble.ultimate_angle.value) == pytest.approx(np.degrees(np.arctan(np.mean(ratios))))
+
+
+def test_strength_by_the_shear_plane(runs):
+    """Where the plane has 1.25 times the lid's stress, cohesion is the same and tan(phi) is 1/1.25 as large; and where it
+    is not known, there is none."""
+
+    def on_plane(shear: Shear) -> Shear:
+        return replace(shear, data=shear.data | {"plane_kPa": np.full(len(shear.data["step"]), 1.25 * shear.sigma)})
+
+    known = Ensemble([replace(run, shears=[on_plane(shear) for shear in run.shears]) for run in runs])
+    lid, plane = known.strength, known.plane_strength
+    assert lid and plane and Ensemble(runs).plane_strength is None
+    assert plane.c_kPa.value == pytest.approx(lid.c_kPa.value)
+    assert np.tan(np.radians(plane.phi_deg.value)) == pytest.approx(np.tan(np.radians(lid.phi_deg.value)) / 1.25)
 
 
 def only(run: Results, *stresses: float) -> Results:
