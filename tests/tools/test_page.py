@@ -8,14 +8,17 @@ import re
 import shutil
 import subprocess
 from collections import Counter
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
 import synthetic
+from test_ensemble_report import REQUEST, write_run
 
 from shearbox_tools.models import INPUT, find_model, read_variables
 from shearbox_tools.report import report
+from shearbox_tools.reporting import report_on
 from shearbox_tools.request import Request
 
 LAYOUT = Path(__file__).with_name("layout.js")
@@ -53,6 +56,15 @@ def _page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return report(folder)
 
 
+@pytest.fixture(name="ensemble", scope="module")
+def _ensemble(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The report on two specimens of four stresses."""
+    folder = tmp_path_factory.mktemp("ensemble")
+    for seed, factor in ((1, 0.9), (2, 1.2)):
+        write_run(folder / f"seed_{seed}", replace(REQUEST, stresses=STRESSES, seed=seed), factor)
+    return report_on(folder)
+
+
 def chromium(folder: Path, *arguments: str) -> str:
     """What it prints; without a sandbox, as root has to run it, and without a bus that it would wait for."""
     buses = {f"DBUS_{name}_BUS_ADDRESS": "unix:path=/dev/null" for name in ("SESSION", "SYSTEM")}
@@ -83,10 +95,10 @@ def faults(pages: list[tuple[str, int]], folder: Path) -> list[list[str]]:
     return found
 
 
-def test_on_screens(page: Path, tmp_path: Path) -> None:
-    text = page.read_text(encoding="utf-8")
-    found = faults([(text, width) for width in WIDTHS], tmp_path)
-    assert dict(zip(WIDTHS, found)) == {width: [] for width in WIDTHS}
+def test_on_screens(page: Path, ensemble: Path, tmp_path: Path) -> None:
+    shown = [(path, width) for path in (page, ensemble) for width in WIDTHS]
+    found = faults([(path.read_text(encoding="utf-8"), width) for path, width in shown], tmp_path)
+    assert dict(zip(shown, found)) == {each: [] for each in shown}
 
 
 BROKEN = {
@@ -144,8 +156,9 @@ def output(*command: str | Path) -> str:
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
-def test_on_paper(page: Path, tmp_path: Path) -> None:
+def test_on_paper(page: Path, ensemble: Path, tmp_path: Path) -> None:
     assert faults_on_paper(page, tmp_path) == []
+    assert faults_on_paper(ensemble, tmp_path) == []
 
 
 PAPER = (
