@@ -161,7 +161,7 @@ def write_frames(folder: Path, steps: list[int], travel: float, width: float = 0
         texts["cells"].append(
             _frame(
                 step,
-                "ENTRIES " + " ".join(f"c_cells[{k}]" for k in range(1, 16)),
+                "ENTRIES " + " ".join(f"c_cells[{k}]" for k in range(1, 15)),
                 _cell_rows(width, half_height, travel),
             )
         )

@@ -50,8 +50,8 @@ def test_the_page_stands_alone_and_is_well_formed(folder):
     page = report(folder).read_text(encoding="utf-8")
     links = re.findall(r'(?:src|href)="([^"]{0,60})', page)
     assert [link for link in links if not link.startswith("data:")] == ["https://doi.org/10.15002/00007990"]
-    assert len([link for link in links if link.startswith("data:image/svg+xml")]) == 10, "diagrams, a scale of colours"
-    assert len([link for link in links if link.startswith("data:image/webp")]) == 2 * 3 * 2
+    assert len([link for link in links if link.startswith("data:image/svg+xml")]) == 13, "diagrams, scales of colours"
+    assert len([link for link in links if link.startswith("data:image/webp")]) == 2 * 3 * (2 + 3), "pictures and maps"
     assert all(re.findall(r'<img [^>]*alt="(.*?)"', page)) and page.count("<img ") == page.count(' alt="')
     told = float(re.search(r"one file of (\S+) MB", page)[1])
     assert 1e6 * told == pytest.approx(len(page.encode()), abs=5e4)
@@ -289,6 +289,16 @@ def test_missing_dumps_cost_the_pictures_only(folder):
     assert "100 kPa: no grains.dump, discs.dump, contacts.dump and so no picture" in summary(folder)["notes"][0]
     assert summary(folder)["complete"]
     assert summary(folder)["stresses"][0]["grains_lost"] is None
+
+
+@pytest.mark.parametrize("gone", ["cells.dump", "cells.columns"])
+def test_missing_cells_cost_the_maps_only(folder, gone):
+    for sigma in STRESSES:
+        (folder / f"{sigma:g}" / gone).unlink()
+    assert main(["report", str(folder)]) == 0
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    assert page.count("data:image/webp") == 2 * 3 * 2 and "Fields" not in page
+    assert summary(folder)["notes"] == []
 
 
 def test_nothing_to_report_on(folder, capsys):

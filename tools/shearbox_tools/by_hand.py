@@ -147,10 +147,12 @@ def _model(folder: Path, said: dict[str, tuple[str, ...]], model: str | None) ->
 
 
 def _parameters(said: dict[str, tuple[str, ...]]) -> dict[str, str]:
-    """Of the contacts as they were; of the rest as parameters.in says."""
+    """Of contacts and thickness as they were; of the rest, and of what is not told, as parameters.in says."""
     names = ("kn", "ks", "hn", "hs", "phi")
     contact = dict(zip(names, (numeral(float(value)) for value in said.get("contact", ()))))
-    return {"density": read_variables(PARAMETERS)["density"], **contact}
+    assumed = read_variables(PARAMETERS)
+    thickness = numeral(float(said["lid"][2])) if "lid" in said else assumed["thickness"]
+    return {"density": assumed["density"], "thickness": thickness, **contact}
 
 
 def _is_complete(data: Columns, travel: float) -> bool:

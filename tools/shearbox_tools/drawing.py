@@ -9,26 +9,22 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib import colormaps, rc_context
 from matplotlib.axes import Axes
-from matplotlib.cm import ScalarMappable
 from matplotlib.collections import EllipseCollection, LineCollection
 from matplotlib.colors import Normalize, to_rgba
 from matplotlib.figure import Figure
 
+from .canvas import STRIP, colour_scale, draw_key, empty_picture, round_down
 from .specimen import Film, Moment
 from .style import RC, as_uri
 
 WALL_COLOUR = "#c9ced4"
 OUTLINE_COLOUR = "#4a525a"
 FORCE_COLOUR = "#7a1022"
-INK = "#23282e"
 OUTLINE = 0.05  # of a disc's radius
 WIDEST_LINE = 6.0  # points
 ROTATIONS = colormaps["RdBu_r"]
-PICTURE_WIDTH = 4.2  # inches
+ROTATION_TITLE = "rotation since the start (°, anticlockwise +)"
 ASIDE = 0.1  # shown beside the grains, of their width; the flanges go on
-STRIP = 0.1  # height of the strip with scale and arrow, of the picture's width
-STRIP_FONT = 12  # points
-SCALE_WIDTH = 3.6  # of the scale of colours, inches
 
 
 @dataclass(frozen=True)
@@ -60,7 +56,7 @@ def draw_specimens(specimens: dict[float, Stills]) -> dict[str, str]:
     turned = Normalize(-(limit := _largest_rotation(specimens)), limit)
     per_stress = max(_largest_force(stills) / sigma for sigma, stills in specimens.items())
     with rc_context(RC):
-        pictures = {"rotation scale": as_uri(_rotation_scale(turned), "svg")}
+        pictures = {"rotation scale": as_uri(colour_scale(turned, ROTATIONS, ROTATION_TITLE), "svg")}
         for sigma, stills in specimens.items():
             for name, moment in stills.moments.items():
                 for kind, picture in (
@@ -82,7 +78,7 @@ def _largest_force(stills: Stills) -> float:
 
 
 def _rotation(stills: Stills, moment: Moment, turned: Normalize) -> Figure:
-    figure, axes = _picture(stills)
+    figure, axes = empty_picture(*_extent(list(stills.moments.values())))
     rotation = np.degrees(moment.rotation_since(stills.before))
     _draw_discs(axes, moment, ROTATIONS(turned(rotation)))
     return figure
@@ -93,43 +89,15 @@ def _forces(stills: Stills, moment: Moment, widest: float) -> Figure:
 
     widest: force (N) of the widest line.
     """
-    figure, axes = _picture(stills)
+    figure, axes = empty_picture(*_extent(list(stills.moments.values())))
     _draw_discs(axes, moment, np.tile(_rgba("#f1f3f5"), (len(moment.discs["id"]), 1)), outline="#d5dade")
     widths = WIDEST_LINE * np.clip(moment.contacts["fn"], 0, None) / widest
     lines = list(moment.branches())
     style = {"colors": FORCE_COLOUR, "capstyle": "round", "joinstyle": "round"}
     axes.add_collection(LineCollection(lines, linewidths=widths, **style))
-    key = _round_down(widest / 2)
-    _draw_key(axes, (0.7, 0.78), f"{key:g} N", lw=WIDEST_LINE * key / widest, color=FORCE_COLOUR)
+    key = round_down(widest / 2)
+    draw_key(axes, (0.7, 0.78), f"{key:g} N", lw=WIDEST_LINE * key / widest, color=FORCE_COLOUR)
     return figure
-
-
-def _picture(stills: Stills) -> tuple[Figure, Axes]:
-    """An empty picture of all moments' extent, with scale bar and arrow of shear."""
-    low, high = _extent(list(stills.moments.values()))
-    width, height = high - low
-    figure = Figure(figsize=(PICTURE_WIDTH, PICTURE_WIDTH * height / width))
-    axes = figure.add_axes((0, 0, 1, 1))
-    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
-    axes.axis("off")
-    bar = _round_down(1000 * width / 5)
-    _draw_key(axes, (0.02, 0.02 + bar / (1000 * width)), f"{bar:g} mm", lw=2.5, color=INK, capstyle="butt")
-    middle = STRIP * width / height / 2
-    axes.annotate(
-        "shear", (0.66, middle), (0.45, middle), xycoords="axes fraction", va="center", fontsize=STRIP_FONT, color=INK,
-        arrowprops={"arrowstyle": "-|>", "lw": 1.8, "color": INK, "mutation_scale": 16},
-    )  # fmt: skip
-    return figure, axes
-
-
-def _draw_key(axes: Axes, ends: tuple[float, float], text: str, lw: float, color: str, capstyle: str = "round") -> None:
-    """A piece of a line in the strip, between fractions of its length, and to its right what it stands for."""
-    x, y = np.array(axes.get_xlim()), np.array(axes.get_ylim())
-    middle = STRIP / 2 * np.ptp(x) / np.ptp(y)
-    axes.plot(ends, [middle] * 2, transform=axes.transAxes, lw=lw, color=color, solid_capstyle=capstyle)
-    axes.annotate(
-        text, (ends[1], middle), (6, 0), "axes fraction", "offset points", va="center", fontsize=STRIP_FONT, color=INK
-    )
 
 
 def _extent(moments: list[Moment]) -> tuple[np.ndarray, np.ndarray]:
@@ -161,22 +129,6 @@ def _draw_discs(axes: Axes, moment: Moment, colours: np.ndarray, outline: str = 
             offsets=np.column_stack([discs["x"][rows], discs["y"][rows]]), offset_transform=axes.transData,
         )
     )  # fmt: skip
-
-
-def _rotation_scale(turned: Normalize) -> Figure:
-    figure = Figure(figsize=(SCALE_WIDTH, 0.6), layout="constrained")
-    bar = figure.colorbar(
-        ScalarMappable(turned, ROTATIONS), cax=figure.add_subplot(), orientation="horizontal", extend="both"
-    )
-    bar.set_label("rotation since the start (°, anticlockwise +)")
-    bar.outline.set_visible(False)
-    return figure
-
-
-def _round_down(value: float) -> float:
-    """The greatest of 1, 2, 5, 10, 20, 50, ... (and 0.5, 0.2, ...) that is not above the value."""
-    power = 10.0 ** np.floor(np.log10(value))
-    return float(power * max(step for step in (1, 2, 5) if step * power <= value * (1 + 1e-9)))
 
 
 def _rgba(colour: str) -> np.ndarray:

@@ -18,6 +18,7 @@ from .seals import refuse_altered
 GRAINS = ("id", "x", "y", "radius", "angle", "wall", "lower", "lid")  # columns that are needed
 DISCS = ("id", "disc", "x", "y", "radius")
 CONTACTS = ("id1", "id2", "x", "y", "fn")
+CELLS = ("x", "y", "solid", "stress_xx", "stress_yy", "stress_xy")
 
 _FRAME = re.compile(rb"^ITEM: TIMESTEP\r?\n", re.MULTILINE)
 _LAST_OF_HEAD = (b"ITEM: ATOMS", b"ITEM: ENTRIES")

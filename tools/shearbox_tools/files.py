@@ -42,7 +42,8 @@ PICTURED = (
     "discs" + COLUMNS,
     "contacts" + COLUMNS,
 )
-FRAMES = (*PICTURED, CELLS_DUMP, "cells" + COLUMNS)
+MAPPED = (CELLS_DUMP, "cells" + COLUMNS)  # of what maps of fields are made, beside the grains
+FRAMES = (*PICTURED, *MAPPED)
 
 
 def stress_folder(folder: Path, sigma: float) -> Path:

@@ -11,8 +11,11 @@ from matplotlib import rc_context
 from . import curves, states
 from .drawing import Stills, draw_specimens
 from .errors import ShearboxError
+from .fields import Box, Fields
 from .files import CURVE, PAGE, SUMMARY, write_json, write_text
+from .maps import draw_maps
 from .models import PARAMETERS, read_comments
+from .numerals import number
 from .page import render
 from .results import Results, read_results
 from .shear import Shear
@@ -80,6 +83,20 @@ def _specimens(results: Results) -> dict[float, Stills]:
     return specimens
 
 
+def _fields(results: Results, specimens: dict[float, Stills]) -> dict[float, dict[str, Fields]]:
+    """By stress (kPa) and name of the moment, where the frames of the cells are there and the thickness is recorded."""
+    try:
+        thickness = number(results.identity["parameters"]["thickness"])
+    except (KeyError, ValueError):
+        return {}
+    box = Box(results.identity["model half_height"], thickness)
+    return {
+        sigma: {name: Fields.of(moment, stills.before, box) for name, moment in stills.moments.items()}
+        for sigma, stills in specimens.items()
+        if stills.before.cells is not None
+    }
+
+
 def _curve(shear: Shear) -> str:
     """The table of a shear phase with its fitted curves and dilatancy rate, as CSV."""
     s = shear.data["displacement_mm"]
@@ -99,9 +116,10 @@ def _curve(shear: Shear) -> str:
 
 def _page(results: Results, summary: dict[str, Any], specimens: dict[float, Stills]) -> str:
     """Its size in MB is told on itself."""
+    fields = _fields(results, specimens)
     values = dict(
         summary=summary, line=results.line, plane_line=results.plane_line, knows_plane=results.knows_plane, diagrams=_diagrams(results),
-        pictures=draw_specimens(specimens), specimens=specimens, column_titles=curves.OTHERS, logs=phase_logs(results),
+        pictures=draw_specimens(specimens), specimens=specimens, maps=draw_maps(fields), mapped=list(fields), column_titles=curves.OTHERS, logs=phase_logs(results),
         consolidations=[(f"{sigma:g}", bed) for sigma, bed in results.consolidations.items()], known_scatter=KNOWN_SCATTER, comments=_comments(results.model_file),
     )  # fmt: skip
     size = len(render(PAGE_TEMPLATE, **values, size_MB=0))

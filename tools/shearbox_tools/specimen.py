@@ -1,24 +1,26 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The specimen at one moment: its discs, and the forces between them; SI units."""
+"""The specimen at one moment: its discs, the forces between them, and means over cells of a grid; SI units."""
 
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from .dumps import CONTACTS, DISCS, GRAINS, Dump
-from .files import CONTACTS_DUMP, DISCS_DUMP, GRAINS_DUMP, PICTURED
+from .dumps import CELLS, CONTACTS, DISCS, GRAINS, Dump
+from .errors import ShearboxError
+from .files import CELLS_DUMP, CONTACTS_DUMP, DISCS_DUMP, GRAINS_DUMP, MAPPED, PICTURED
 from .readers import Columns
 
 
 @dataclass(frozen=True)
 class Moment:
-    """One frame of the three dumps (grains and contacts: the frames nearest to that of the discs)."""
+    """One frame of each dump (of the others, the frame nearest to that of the discs)."""
 
     displacement: float  # mm
     grains: Columns
     discs: Columns
     contacts: Columns
+    cells: Columns | None  # each (layers, columns), from the floor up and from left to right; None: not there
 
     @property
     def walls(self) -> np.ndarray:
@@ -30,6 +32,10 @@ class Moment:
         before = dict(zip(first.grains["id"], first.grains["angle"]))
         turned = {i: angle - before.get(i, angle) for i, angle in zip(self.grains["id"], self.grains["angle"])}
         return np.array([turned.get(i, 0.0) for i in self.discs["id"]])
+
+    def moved_since(self, first: "Moment") -> float:
+        """How far (m) the lower half has moved since another moment."""
+        return float(np.subtract(*(m.grains["x"][m.grains["lower"] == 1].mean() for m in (self, first))))
 
     def branches(self) -> np.ndarray:
         """(contacts, 3, 2) from the centre of the one grain over the contact point to that of the other, in m."""
@@ -52,6 +58,8 @@ class Film:
         self._grains = Dump(folder / GRAINS_DUMP, GRAINS)
         self._discs = Dump(folder / DISCS_DUMP, DISCS)
         self._contacts = Dump(folder / CONTACTS_DUMP, CONTACTS)
+        mapped = all((folder / name).exists() for name in MAPPED)
+        self._cells = Dump(folder / CELLS_DUMP, CELLS) if mapped else None
         first = self._discs.nearest(0)
         # rows of the table are averages over the interval that ends at their step: on average half of it ago
         self._steps = np.concatenate([[first], steps - np.diff(steps, prepend=first) / 2])
@@ -72,8 +80,22 @@ class Film:
     def _moment(self, wanted: float) -> Moment:
         step = self._discs.nearest(wanted)
         displacement = float(np.interp(step, self._steps, self._displacements))
-        frames = (dump.frame(dump.nearest(step)) for dump in (self._grains, self._discs, self._contacts))
-        return Moment(displacement, *frames)
+        grains, discs, contacts = (d.frame(d.nearest(step)) for d in (self._grains, self._discs, self._contacts))
+        return Moment(displacement, grains, discs, contacts, _grid(self._cells, step) if self._cells else None)
+
+
+def _grid(dump: Dump, step: int) -> Columns:
+    """Columns of the frame nearest to that step, each (layers, columns)."""
+    cells = dump.frame(dump.nearest(step))
+    x, y = np.unique(cells["x"]), np.unique(cells["y"])
+    rows = np.array([cells["x"], cells["y"]])
+    if (
+        len(x) * len(y) != rows.shape[1]
+        or np.any(rows != [np.tile(x, len(y)), np.repeat(y, len(x))])
+        or rows.min() <= 0
+    ):
+        raise ShearboxError(f"{dump.path}: x and y of a frame are not those of the cells of a grid, along x first")
+    return {name: column.reshape(len(y), len(x)) for name, column in cells.items()}
 
 
 def count_lost(folder: Path, total: int, width: float, half_height: float) -> int:

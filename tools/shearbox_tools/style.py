@@ -84,12 +84,12 @@ def name_stresses(axes: Axes, of: dict[float, Look]) -> None:
     )
 
 
-def as_uri(figure: Figure, kind: str) -> str:
-    """The figure as a data: URI, 'svg', or for what has thousands of parts 'webp', to be embedded in a page."""
+def as_uri(figure: Figure, kind: str, dpi: int = 200) -> str:
+    """The figure as a data: URI, 'svg', or for what has hundreds of parts 'webp' of so many dpi, to be embedded in a page."""
     buffer = io.BytesIO()
     if kind == "svg":
         figure.savefig(buffer, format=kind, metadata={"Date": None})
     else:
-        figure.savefig(buffer, format=kind, dpi=200, pil_kwargs={"quality": 85})
+        figure.savefig(buffer, format=kind, dpi=dpi, pil_kwargs={"quality": 85})
     mime = "image/svg+xml" if kind == "svg" else f"image/{kind}"
     return f"data:{mime};base64,{base64.b64encode(buffer.getvalue()).decode()}"

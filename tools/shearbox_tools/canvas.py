@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What all pictures of specimens have: their size, a strip with a scale bar and the arrow of shear, scales of colours."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Colormap, Normalize
+from matplotlib.figure import Figure
+
+INK = "#23282e"
+PICTURE_WIDTH = 4.2  # inches
+STRIP = 0.1  # height of the strip with scale and arrow, of the picture's width
+STRIP_FONT = 12  # points
+SCALE_WIDTH = 3.6  # of the scale of colours, inches
+
+
+def empty_picture(low: np.ndarray, high: np.ndarray) -> tuple[Figure, Axes]:
+    """A picture to scale from the corner low to the corner high, (2,) each, m; the strip, with scale bar and arrow of shear,
+    is its lowest part."""
+    width, height = high - low
+    figure = Figure(figsize=(PICTURE_WIDTH, PICTURE_WIDTH * height / width))
+    axes = figure.add_axes((0, 0, 1, 1))
+    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
+    axes.axis("off")
+    bar = round_down(1000 * width / 5)
+    draw_key(axes, (0.02, 0.02 + bar / (1000 * width)), f"{bar:g} mm", lw=2.5, color=INK, capstyle="butt")
+    middle = STRIP * width / height / 2
+    axes.annotate(
+        "shear", (0.66, middle), (0.45, middle), xycoords="axes fraction", va="center", fontsize=STRIP_FONT, color=INK,
+        arrowprops={"arrowstyle": "-|>", "lw": 1.8, "color": INK, "mutation_scale": 16},
+    )  # fmt: skip
+    return figure, axes
+
+
+def draw_key(axes: Axes, ends: tuple[float, float], text: str, lw: float, color: str, capstyle: str = "round") -> None:
+    """A piece of a line in the strip, between fractions of its length, and to its right what it stands for."""
+    x, y = np.array(axes.get_xlim()), np.array(axes.get_ylim())
+    middle = STRIP / 2 * np.ptp(x) / np.ptp(y)
+    axes.plot(ends, [middle] * 2, transform=axes.transAxes, lw=lw, color=color, solid_capstyle=capstyle)
+    axes.annotate(
+        text, (ends[1], middle), (6, 0), "axes fraction", "offset points", va="center", fontsize=STRIP_FONT, color=INK
+    )
+
+
+def colour_scale(colours: Normalize, colormap: Colormap, title: str, extend: str = "both") -> Figure:
+    """A bar with the values of colours; extend: at which ends values go on, as in matplotlib."""
+    figure = Figure(figsize=(SCALE_WIDTH, 0.6), layout="constrained")
+    bar = figure.colorbar(
+        ScalarMappable(colours, colormap), cax=figure.add_subplot(), orientation="horizontal", extend=extend
+    )
+    bar.set_label(title)
+    bar.outline.set_visible(False)
+    return figure
+
+
+def round_down(value: float) -> float:
+    """The greatest of 1, 2, 5, 10, 20, 50, ... (and 0.5, 0.2, ...) that is not above the value."""
+    power = 10.0 ** np.floor(np.log10(value))
+    return float(power * max(step for step in (1, 2, 5) if step * power <= value * (1 + 1e-9)))
