@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib import colormaps, rc_context
 from matplotlib.axes import Axes
-from matplotlib.collections import EllipseCollection, LineCollection
+from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
 from matplotlib.colors import Normalize, to_rgba
 from matplotlib.figure import Figure
 
@@ -112,8 +112,12 @@ def _extent(moments: list[Moment]) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _draw_discs(axes: Axes, moment: Moment, colours: np.ndarray, outline: str = OUTLINE_COLOUR) -> None:
-    """Grain after grain, first all its discs in the outline's colour, then smaller ones: a grain has one outline."""
+    """Grain after grain, first all its discs in the outline's colour, then smaller ones: a grain has one outline.
+
+    A wall of two discs is a piece of a smooth wall: what lies between them is of it, too.
+    """
     discs = moment.discs
+    axes.add_collection(PolyCollection(_between(moment, 1), facecolors=outline, linewidths=0, zorder=1))
     order = np.lexsort((discs["disc"], discs["id"]))
     same = np.cumsum(np.diff(discs["id"][order], prepend=-1) != 0)  # number of the grain
     layers = np.concatenate([2 * same, 2 * same + 1])
@@ -129,6 +133,22 @@ def _draw_discs(axes: Axes, moment: Moment, colours: np.ndarray, outline: str = 
             offsets=np.column_stack([discs["x"][rows], discs["y"][rows]]), offset_transform=axes.transData,
         )
     )  # fmt: skip
+    axes.add_collection(
+        PolyCollection(_between(moment, 1 - 2 * OUTLINE), facecolors=WALL_COLOUR, linewidths=0, zorder=3)
+    )
+
+
+def _between(moment: Moment, share: float) -> np.ndarray:
+    """(pieces, 4, 2) corners of the rectangles between the discs of pieces of smooth walls, as wide as `share` of them, m."""
+    discs = moment.discs
+    ids, count = np.unique(discs["id"][moment.walls], return_counts=True)
+    ends = np.flatnonzero(np.isin(discs["id"], ids[count == 2]))
+    first, second = ends[np.argsort(discs["id"][ends], kind="stable")].reshape(-1, 2).T
+    a, b = (np.column_stack([discs["x"][k], discs["y"][k]]) for k in (first, second))
+    along = b - a
+    across = np.column_stack([-along[:, 1], along[:, 0]]) / np.hypot(*along.T)[:, None]
+    aside = share * discs["radius"][first][:, None] * across
+    return np.stack([a + aside, b + aside, b - aside, a - aside], axis=1)
 
 
 def _rgba(colour: str) -> np.ndarray:
