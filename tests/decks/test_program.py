@@ -27,6 +27,7 @@ STYLES = {
         "cdem/contacts",
         "cdem/discs",
         "cdem/energy",
+        "cdem/force",
         "cdem/grid",
         "cdem/limit",
         "cdem/trm",
