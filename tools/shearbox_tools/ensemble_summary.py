@@ -12,13 +12,12 @@ from .ensemble import EnsembleStrength, Estimate
 from .ensemble_results import FEATURES, RELATIONS, Ensemble, estimate
 from .files import PAGE
 from .grouping import LeftOut, settings_of, what_differs
-from .mean_curve import MeanCurve
 from .peak import Peak
 from .results import Results
 from .shear import Shear
 from .strength import COVERAGE, KNOWN_SCATTER
 from .stress_dilatancy import Dilatant
-from .summary import plain
+from .summary import of_line, plain
 
 
 def summarise_all(
@@ -76,18 +75,12 @@ def _strength(strength: EnsembleStrength | None, which: str) -> dict[str, Any]:
     }
 
 
-def _fit_alone(ensemble: Ensemble) -> dict[str, float] | None:
+def _fit_alone(ensemble: Ensemble) -> dict[str, float | None] | None:
     """The line of a single specimen, whose intervals do not hold the scatter of specimens."""
     run = ensemble.specimens[0]
     if ensemble.count > 1 or run.line is None or run.doubts:
         return None
-    line = run.line
-    return {
-        "phi_deg": line.phi_deg,
-        "phi_half_width_deg": line.phi_half_width_deg,
-        "c_kPa": line.c_kPa,
-        "c_half_width_kPa": line.c_half_width_kPa,
-    }
+    return of_line(run.line)
 
 
 def _specimen(folder: Path, run: Results) -> dict[str, Any]:
@@ -122,7 +115,7 @@ def _stress(ensemble: Ensemble, sigma: float) -> dict[str, Any]:
         "displacement_at_peak_mm": _mean([shear.peak.position for shear in shears]),
         "tau_ultimate_kPa": _mean([shear.ultimate[0] for shear in shears]),
         "lid_at_peak_mm": _mean([float(shear.lid.series(shear.peak.position)) for shear in shears]),
-        "lid_end_mm": _lid_end(curve),
+        "lid_end_mm": float(curve.lid.mean[-1]),
         "at_peak": _dilatancy(shears, lambda shear: shear.at_peak),
         "at_end": _dilatancy(shears, lambda shear: shear.at_end),
         "inertial_number": max(numbers, default=None),
@@ -137,10 +130,6 @@ def _stress(ensemble: Ensemble, sigma: float) -> dict[str, Any]:
             for name, verdict in ensemble.verdicts_by_stress[sigma].items()
         },
     }
-
-
-def _lid_end(curve: MeanCurve) -> float:
-    return float(curve.lid.mean[-1])
 
 
 def _peak(peak: Peak) -> dict[str, Any]:

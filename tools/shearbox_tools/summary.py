@@ -15,7 +15,7 @@ from .logs import Log, read_logs
 from .phases import CONSOLIDATE, PACK, SHEAR
 from .results import Results
 from .shear import Shear
-from .strength import COVERAGE
+from .strength import COVERAGE, Line
 from .stress_dilatancy import Dilatant
 from .verdict import Verdict, of_all
 
@@ -52,12 +52,8 @@ def _strength(results: Results) -> dict[str, Any]:
     line, smoothed, ultimate = results.line, results.smoothed_line, results.ultimate_angle
     if not (line and smoothed and ultimate) or results.doubts:
         return {"phi_deg": None, "c_kPa": None, "doubts": results.doubts}
-    plane = results.plane_line
     return {
-        "phi_deg": line.phi_deg,
-        "phi_half_width_deg": line.phi_half_width_deg,
-        "c_kPa": line.c_kPa,
-        "c_half_width_kPa": line.c_half_width_kPa,
+        **of_line(line),
         "coverage": COVERAGE,
         "specimens": 1,
         "interval_holds_scatter_of_specimens": False,
@@ -65,15 +61,22 @@ def _strength(results: Results) -> dict[str, Any]:
         "r_squared": line.r_squared,
         "chi2_reduced": line.chi2_reduced,
         "phi_through_origin_deg": line.phi_through_origin_deg,
-        "phi_plane_deg": plane.phi_deg if plane else None,
-        "phi_plane_half_width_deg": plane.phi_half_width_deg if plane else None,
-        "c_plane_kPa": plane.c_kPa if plane else None,
-        "c_plane_half_width_kPa": plane.c_half_width_kPa if plane else None,
+        **of_line(results.plane_line, "_plane"),
         "phi_smoothed_deg": smoothed.phi_deg,
         "phi_smoothed_half_width_deg": smoothed.phi_half_width_deg,
         "c_smoothed_kPa": smoothed.c_kPa,
         "phi_ultimate_deg": float(ultimate.value),
         "phi_ultimate_interval_deg": [float(ultimate.low), float(ultimate.high)],
+    }
+
+
+def of_line(line: Line | None, which: str = "") -> dict[str, float | None]:
+    """Friction angle and cohesion with their half-widths, of the fit alone; None without a line."""
+    return {
+        f"phi{which}_deg": line.phi_deg if line else None,
+        f"phi{which}_half_width_deg": line.phi_half_width_deg if line else None,
+        f"c{which}_kPa": line.c_kPa if line else None,
+        f"c{which}_half_width_kPa": line.c_half_width_kPa if line else None,
     }
 
 
