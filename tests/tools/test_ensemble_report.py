@@ -134,17 +134,18 @@ def test_strength_is_that_of_the_specimens_own_lines(runs):
 
 
 def test_strength_by_the_shear_plane(runs):
-    """Where the plane has 1.25 times the lid's stress, cohesion is the same and tan(phi) is 1/1.25 as large; and where it
-    is not known, there is none."""
+    """Where the plane has 1.25 times the lid's stress and 0.8 of the lower half's, cohesion is 0.8 times as large and
+    tan(phi) 0.8/1.25 times; and where they are not known, there is none."""
 
     def on_plane(shear: Shear) -> Shear:
-        return replace(shear, data=shear.data | {"plane_kPa": np.full(len(shear.data["step"]), 1.25 * shear.sigma)})
+        normal = np.full(len(shear.data["step"]), 1.25 * shear.sigma)
+        return replace(shear, data=shear.data | {"plane_kPa": normal, "plane_tau_kPa": 0.8 * shear.data["tau_kPa"]})
 
     known = Ensemble([replace(run, shears=[on_plane(shear) for shear in run.shears]) for run in runs])
     lid, plane = known.strength, known.plane_strength
     assert lid and plane and Ensemble(runs).plane_strength is None
-    assert plane.c_kPa.value == pytest.approx(lid.c_kPa.value)
-    assert np.tan(np.radians(plane.phi_deg.value)) == pytest.approx(np.tan(np.radians(lid.phi_deg.value)) / 1.25)
+    assert plane.c_kPa.value == pytest.approx(0.8 * lid.c_kPa.value)
+    assert np.tan(np.radians(plane.phi_deg.value)) == pytest.approx(np.tan(np.radians(lid.phi_deg.value)) * 0.8 / 1.25)
 
 
 def only(run: Results, *stresses: float) -> Results:

@@ -51,6 +51,7 @@ def _page(tmp_path_factory: pytest.TempPathFactory) -> Path:
         synthetic.write_row(place / "consolidated.csv", **synthetic.bed())
         curves = synthetic.curves(sigma, 8)
         curves["plane_kPa"] = sigma + 0.3 * curves["tau_kPa"]
+        curves["plane_tau_kPa"] = 0.9 * curves["tau_kPa"]
         synthetic.write_shear(place / "shear.dat", curves)
     synthetic.write_frames(folder / "100", [0, 2000000, 4000000], 8)
     return report(folder)

@@ -79,25 +79,27 @@ class TagChecker(HTMLParser):
 
 
 def add_plane(folder: Path) -> None:
-    """On the plane 20 kPa more than the lid's, and half of tau."""
+    """On the plane 20 kPa more than the lid's, and half of tau; and 0.8 of tau, as if grains under flanges bore the rest."""
     for sigma in STRESSES:
         curve = synthetic.curves(sigma, 8)
         curve["plane_kPa"] = sigma + 20 + curve["tau_kPa"] / 2
+        curve["plane_tau_kPa"] = 0.8 * curve["tau_kPa"]
         synthetic.write_shear(folder / f"{sigma:g}" / "shear.dat", curve)
 
 
 def test_both_strengths_stand_side_by_side(folder):
-    """tau = 5 + 0.5 lid is tau = -4 + 0.4 plane where plane = lid + 20 + tau / 2."""
+    """tau = 5 + 0.5 lid is tau = -4 + 0.4 plane where plane = lid + 20 + tau / 2, and 0.8 tau = -3.2 + 0.32 plane."""
     page = report(folder).read_text(encoding="utf-8")
     assert "on the shear plane" not in page and summary(folder)["phi_plane_deg"] is None
     add_plane(folder)
     page = report(folder).read_text(encoding="utf-8")
     result = summary(folder)
-    assert np.tan(np.radians([result["phi_deg"], result["phi_plane_deg"]])) == pytest.approx([0.5, 0.4], abs=0.03)
-    assert result["c_plane_kPa"] == pytest.approx(-4, abs=4)
+    assert np.tan(np.radians([result["phi_deg"], result["phi_plane_deg"]])) == pytest.approx([0.5, 0.32], abs=0.03)
+    assert result["c_plane_kPa"] == pytest.approx(-3.2, abs=4)
     first = result["stresses"][0]
     assert first["plane_at_peak_kPa"] == pytest.approx(120 + first["tau_peak_kPa"] / 2, rel=0.01)
-    by_plane = first["tau_peak_kPa"] / first["plane_at_peak_kPa"]
+    assert first["plane_tau_peak_kPa"] == pytest.approx(0.8 * first["tau_peak_kPa"], rel=1e-5)
+    by_plane = first["plane_tau_peak_kPa"] / first["plane_at_peak_kPa"]
     assert re.search(rf"τ/σ on the shear plane</th><td>{by_plane:.3f}</td>", page)
     assert f"{result['phi_plane_deg']:.1f}" in headline(folder)
 

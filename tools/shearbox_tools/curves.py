@@ -88,11 +88,12 @@ def other_columns(results: Results) -> dict[str, Figure]:
 def _stress_ratio(
     results: Results, name: str, ratio: Callable[[Shear, np.ndarray], np.ndarray], heights: list[np.ndarray]
 ) -> Figure:
-    figure, axes = diagram(DISPLACEMENT, "τ/σ, σ of the lid (–)" if name == "lid" else "τ/σ, σ on the shear plane (–)")
+    figure, axes = diagram(DISPLACEMENT, "τ/σ, σ of the lid (–)" if name == "lid" else "τ/σ on the shear plane (–)")
     for k, (shear, look) in enumerate(_each(results)):
         s = _places(shear.tau, shear)
         axes.plot(s, ratio(shear, s), look.mark, **_line(look, k, len(s)))
-        _draw_peak(axes, shear.peak.position, float(ratio(shear, np.array(shear.peak.position))), look)
+        peak = shear.plane.peak if name == "plane" and shear.plane else shear.peak
+        _draw_peak(axes, peak.position, float(ratio(shear, np.array(peak.position))), look)
     _finish(axes, results, heights)
     return figure
 
@@ -103,7 +104,7 @@ def _by_lid(shear: Shear, s: np.ndarray) -> np.ndarray:
 
 def _by_plane(shear: Shear, s: np.ndarray) -> np.ndarray:
     assert shear.plane is not None
-    return shear.tau.series(s) / shear.plane.fit.series(s)
+    return shear.plane.tau.series(s) / shear.plane.sigma.series(s)
 
 
 def _column(results: Results, name: str) -> Figure:

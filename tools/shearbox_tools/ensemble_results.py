@@ -91,10 +91,10 @@ class Ensemble:
 
     @cached_property
     def plane_strength(self) -> EnsembleStrength | None:
-        """By the peaks of the polynomials at the normal stresses on the shear plane, where these are known."""
+        """By the stresses on the shear plane, where these are known: by the peaks of their polynomials."""
         if not all(specimen.knows_plane for specimen in self.specimens):
             return None
-        return self._strength(lambda shear: (shear.plane.at_peak if shear.plane else np.nan, shear.peak.value))
+        return self._strength(_peak_on_plane)
 
     def _strength(self, point: Callable[[Shear], tuple[float, float]]) -> EnsembleStrength | None:
         """Of points (sigma, tau) in kPa."""
@@ -196,3 +196,8 @@ def _dilates(shears: Sequence[Shear]) -> Verdict:
         f"to {rise.high:+.3f} mm"
     )
     return Verdict(None if rise.low <= 0 < rise.high else bool(rise.low > 0), reason)
+
+
+def _peak_on_plane(shear: Shear) -> tuple[float, float]:
+    assert shear.plane is not None
+    return shear.plane.sigma_at_peak, shear.plane.peak.value

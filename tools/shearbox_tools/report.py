@@ -104,7 +104,8 @@ def _curve(shear: Shear) -> str:
     columns["step"] = shear.data["step"]
     columns["tau_fit_kPa"] = shear.tau.series(s)
     if shear.plane:
-        columns["plane_fit_kPa"] = shear.plane.fit.series(s)
+        columns["plane_fit_kPa"] = shear.plane.sigma.series(s)
+        columns["plane_tau_fit_kPa"] = shear.plane.tau.series(s)
     columns["lid_fit_mm"] = shear.lid.series(s)
     columns["dilatancy_rate"] = shear.lid.series.deriv()(s)
     text = io.StringIO()

@@ -64,16 +64,16 @@ class Results:
 
     @property
     def knows_plane(self) -> bool:
-        """Whether the normal stress on the shear plane is known at all stresses."""
+        """Whether the stresses on the shear plane are known at all stresses of the lid."""
         return all(shear.plane for shear in self.shears)
 
     @cached_property
     def plane_line(self) -> Line | None:
-        """The first again at the normal stresses on the shear plane, where these are known."""
+        """That by the stresses on the shear plane, where these are known."""
         planes = [shear.plane for shear in self.shears if shear.plane]
         if not self.knows_plane or len(planes) < 2:
             return None
-        return line_on_plane([shear.peak for shear in self.shears], planes)
+        return line_on_plane(planes)
 
     @cached_property
     def ultimate_angle(self) -> Estimate | None:

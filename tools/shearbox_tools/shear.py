@@ -106,8 +106,8 @@ class Shear:
 
     @cached_property
     def plane(self) -> OnPlane | None:
-        """Normal stress on the shear plane, where the table has it."""
-        return on_plane(self.data, self.rows, self.peak)
+        """Stresses on the shear plane, where the table has them."""
+        return on_plane(self.data, self.rows)
 
     @cached_property
     def ultimate(self) -> tuple[float, float]:

@@ -7,7 +7,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from .plane import COLUMN
+from .peak import Peak
+from .plane import NORMAL, SHEAR
 from .polynomial import end_zone
 from .results import Results
 from .shear import Shear
@@ -40,9 +41,9 @@ def stress_paths(results: Results) -> Figure:
     figure, axes = diagram("normal stress σ (kPa)", "shear stress τ (kPa)")
     of = _looks(results)
     for shear in results.shears:
-        _draw_path(axes, shear, "sigma_kPa", of[shear.sigma], 1.0)
+        _draw_path(axes, shear, ("sigma_kPa", "tau_kPa"), shear.peak, of[shear.sigma], 1.0)
         if shear.plane:
-            _draw_path(axes, shear, COLUMN, of[shear.sigma], 2.2)
+            _draw_path(axes, shear, (NORMAL, SHEAR), shear.plane.peak, of[shear.sigma], 2.2)
     _equal_scales(axes)
     for line, _, dashes in _lines(results):
         end = axes.get_xlim()[1]
@@ -93,8 +94,9 @@ def _draw_peaks(axes: Axes, shear: Shear, look: Look) -> None:
     axes.errorbar(shear.sigma, peak.value, peak.value_error, ms=6, mfc=face, **bars)
     axes.plot(shear.sigma, shear.smoothed.value, "x", ms=7, mew=1.5, color=colour, zorder=4)
     if shear.plane:
+        plane, of = shear.plane, shear.plane.peak
         axes.errorbar(
-            shear.plane.at_peak, peak.value, peak.value_error, shear.plane.at_peak_error, ms=5, mfc="white", **bars
+            plane.sigma_at_peak, of.value, of.value_error, plane.sigma_at_peak_error, ms=5, mfc="white", **bars
         )
 
 
@@ -111,11 +113,11 @@ def _draw_line(axes: Axes, line: Line, by: str, dashes: Any) -> None:
     axes.plot(0, line.c_kPa, "_", ms=12, mew=1.8, color=LINE_COLOUR, clip_on=False, zorder=3)
 
 
-def _draw_path(axes: Axes, shear: Shear, column: str, look: Look, width: float) -> None:
-    """With the peak hollow and the end filled."""
-    sigma, tau = (smooth(shear.data[name][shear.rows]) for name in (column, "tau_kPa"))
+def _draw_path(axes: Axes, shear: Shear, columns: tuple[str, str], peak: Peak, look: Look, width: float) -> None:
+    """Of two columns, normal and shear stress, with the peak hollow and the end filled."""
+    sigma, tau = (smooth(shear.data[name][shear.rows]) for name in columns)
     axes.plot(sigma, tau, color=look.colour, ls=look.dashes, lw=width)
-    top = int(np.argmin(np.abs(shear.data["displacement_mm"][shear.rows] - shear.peak.position)))
+    top = int(np.argmin(np.abs(shear.data["displacement_mm"][shear.rows] - peak.position)))
     axes.plot(sigma[top], tau[top], look.mark, **_hollow(look))
     axes.plot(sigma[-1], tau[-1], look.mark, ms=5.5, color=look.colour, zorder=4)
 

@@ -13,6 +13,7 @@ from .features import steepest_dilatancy
 from .files import PACKED, log_file
 from .logs import Log, read_logs
 from .phases import CONSOLIDATE, PACK, SHEAR
+from .plane import OnPlane
 from .results import Results
 from .shear import Shear
 from .strength import COVERAGE, Line
@@ -112,9 +113,7 @@ def _stress(results: Results, shear: Shear) -> dict[str, Any]:
         "displacement_at_steepest_mm": steepest,
         "tau_ultimate_kPa": shear.ultimate[0],
         "tau_ultimate_error_kPa": shear.ultimate[1],
-        "plane_at_peak_kPa": shear.plane.at_peak if shear.plane else None,
-        "plane_at_peak_error_kPa": shear.plane.at_peak_error if shear.plane else None,
-        "plane_at_end_kPa": shear.plane.at_end if shear.plane else None,
+        **_on_plane(shear.plane),
         "at_peak": _dilatancy(shear.at_peak),
         "at_end": _dilatancy(shear.at_end),
         "trm": float(shear.data["trm"][-1]),
@@ -126,6 +125,19 @@ def _stress(results: Results, shear: Shear) -> dict[str, Any]:
         "dangerous_builds": shear.dangerous_builds,
         "consolidation": results.consolidations.get(shear.sigma),
         "criteria": {name: _verdict(v) for name, v in shear.verdicts.items()},
+    }
+
+
+def _on_plane(plane: OnPlane | None) -> dict[str, float | None]:
+    """Stresses on the shear plane; null where they are not known."""
+    return {
+        "plane_tau_peak_kPa": plane.peak.value if plane else None,
+        "plane_tau_peak_error_kPa": plane.peak.value_error if plane else None,
+        "displacement_at_plane_peak_mm": plane.peak.position if plane else None,
+        "plane_at_peak_kPa": plane.sigma_at_peak if plane else None,
+        "plane_at_peak_error_kPa": plane.sigma_at_peak_error if plane else None,
+        "plane_at_end_kPa": plane.at_end[0] if plane else None,
+        "plane_tau_at_end_kPa": plane.at_end[1] if plane else None,
     }
 
 
