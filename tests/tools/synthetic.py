@@ -1,14 +1,25 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Curves and files as the decks write them, with known answers and without an engine."""
 
+import json
 import struct
 from pathlib import Path
 
 import numpy as np
 
+from shearbox_tools.models import INPUT, read_variables
+from shearbox_tools.request import Request
+
 STEPS_PER_ROW = 5000
 GRAINS = 350
 CELLS = "x y solid coordination stress_xx stress_yy stress_xy velocity_x velocity_y spin gradient_xx gradient_yy gradient_xy gradient_yx"
+
+
+def write_record(folder: Path, request: Request) -> None:
+    """run.json of a request with the parameters of the decks; makes the folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    record = {"identity": request.identity(read_variables(INPUT / "parameters.in")), "stresses": request.stresses}
+    (folder / "run.json").write_text(json.dumps(record), encoding="utf-8")
 
 
 def softening(s: np.ndarray, peak: float, at: float, residual: float) -> np.ndarray:

@@ -15,7 +15,7 @@ from shearbox_tools.ensemble_results import INDEPENDENT, SHARED, Ensemble
 from shearbox_tools.errors import ShearboxError
 from shearbox_tools.grouping import put_together, what_differs
 from shearbox_tools.mean_curve import average
-from shearbox_tools.models import INPUT, find_model, read_variables
+from shearbox_tools.models import find_model
 from shearbox_tools.reporting import report_on
 from shearbox_tools.request import Request
 from shearbox_tools.results import Results, read_results
@@ -30,10 +30,7 @@ FACTORS = {1: 0.9, 2: 1.0, 3: 1.2}  # of tau, by seed
 
 def write_run(folder: Path, request: Request, factor: float = 1.0, rows: int = ROWS, lid: float = 1.0) -> Path:
     """Smooth curves: tau is `factor` times that of `base`, the lid rises `lid` times as much as there."""
-    folder.mkdir(parents=True)
-    identity = request.identity(read_variables(INPUT / "parameters.in"))
-    record = {"identity": identity, "stresses": request.stresses}
-    (folder / "run.json").write_text(json.dumps(record), encoding="utf-8")
+    synthetic.write_record(folder, request)
     for sigma in request.stresses:
         place = folder / f"{sigma:g}"
         place.mkdir()

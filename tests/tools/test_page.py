@@ -16,7 +16,7 @@ import pytest
 import synthetic
 from test_ensemble_report import REQUEST, write_run
 
-from shearbox_tools.models import INPUT, find_model, read_variables
+from shearbox_tools.models import find_model
 from shearbox_tools.report import report
 from shearbox_tools.reporting import report_on
 from shearbox_tools.request import Request
@@ -40,9 +40,7 @@ pytestmark = pytest.mark.skipif(
 def _page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The report of four stresses with all columns that it knows, and pictures of one of them."""
     folder = tmp_path_factory.mktemp("run")
-    model = find_model("TypeA_10x5_4-8_1-circle_350")
-    identity = Request(model, STRESSES).identity(read_variables(INPUT / "parameters.in"))
-    (folder / "run.json").write_text(json.dumps({"identity": identity, "stresses": STRESSES}), encoding="utf-8")
+    synthetic.write_record(folder, Request(find_model("TypeA_10x5_4-8_1-circle_350"), STRESSES))
     (folder / "packed").mkdir()
     synthetic.write_row(folder / "packed" / "packed.csv", **synthetic.bed())
     for sigma in STRESSES:

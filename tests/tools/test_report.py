@@ -12,7 +12,7 @@ import synthetic
 
 from shearbox_tools.cli import main
 from shearbox_tools import curves
-from shearbox_tools.models import INPUT, find_model, read_variables
+from shearbox_tools.models import find_model
 from shearbox_tools.notes import said_once
 from shearbox_tools.page import minus, number
 from shearbox_tools.report import report
@@ -28,9 +28,7 @@ STEPS = [0, 2000000, 4000000]
 
 @pytest.fixture(name="folder")
 def _folder(tmp_path: Path) -> Path:
-    model = find_model("TypeA_10x5_4-8_1-circle_350")
-    identity = Request(model, STRESSES).identity(read_variables(INPUT / "parameters.in"))
-    (tmp_path / "run.json").write_text(json.dumps({"identity": identity, "stresses": STRESSES}), encoding="utf-8")
+    synthetic.write_record(tmp_path, Request(find_model("TypeA_10x5_4-8_1-circle_350"), STRESSES))
     (tmp_path / "packed").mkdir()
     synthetic.write_row(tmp_path / "packed" / "packed.csv", **synthetic.bed())
     for sigma in STRESSES:

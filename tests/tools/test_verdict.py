@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Numbers beside a verdict never look as if it were another."""
+"""What a verdict says: numbers beside it never look as if it were another."""
 
 import pytest
 
-from shearbox_tools.verdict import Verdict, told_apart
+from shearbox_tools.verdict import Verdict, of_all, told_apart
 
 
 @pytest.mark.parametrize(
@@ -27,3 +27,10 @@ def test_a_doubt_leaves_the_numbers() -> None:
     verdict = Verdict(True, "τ is 95 %")
     assert verdict.in_doubt(None) is verdict
     assert verdict.in_doubt("sheared to 0.13 mm only") == Verdict(None, "sheared to 0.13 mm only; so far τ is 95 %")
+
+
+@pytest.mark.parametrize(
+    "stresses, words", [([100.0], "at 100 kPa"), ([100.0, 200], "at both stresses"), ([1.0, 2, 3], "at all 3 stresses")]
+)
+def test_what_holds_everywhere_says_where(stresses: list[float], words: str) -> None:
+    assert of_all([(sigma, True) for sigma in stresses]) == Verdict(True, words)

@@ -110,7 +110,8 @@ def _draw_line(axes: Axes, line: Line, by: str, dashes: Any) -> None:
     )
     axes.plot(sigma, tau, color=LINE_COLOUR, lw=1.4, ls=dashes, label=label.replace("-", "−"), zorder=2)
     axes.fill_between(sigma, tau - band, tau + band, color=LINE_COLOUR, alpha=0.12, lw=0, zorder=1)
-    axes.plot(0, line.c_kPa, "_", ms=12, mew=1.8, color=LINE_COLOUR, clip_on=False, zorder=3)
+    if line.c_kPa >= axes.get_ylim()[0]:
+        axes.plot(0, line.c_kPa, "_", ms=12, mew=1.8, color=LINE_COLOUR, clip_on=False, zorder=3)
 
 
 def _draw_path(axes: Axes, shear: Shear, columns: tuple[str, str], peak: Peak, look: Look, width: float) -> None:
