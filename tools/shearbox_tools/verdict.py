@@ -26,8 +26,8 @@ def of_all(judged: Sequence[tuple[float, bool | None]]) -> Verdict:
         return Verdict(False, f"not at {', '.join(failed)}")
     if open_ or not judged:
         return Verdict(None, f"cannot be judged at {', '.join(open_) or 'any stress'}")
-    alone = {1: f"at {judged[0][0]:g} kPa", 2: "at both stresses"}
-    return Verdict(True, alone.get(len(judged), f"at all {len(judged)} stresses"))
+    where = {1: f"at {judged[0][0]:g} kPa", 2: "at both stresses"}
+    return Verdict(True, where.get(len(judged), f"at all {len(judged)} stresses"))
 
 
 def told_apart(value: float, limit: float, digits: int, sign: str = "") -> str:
