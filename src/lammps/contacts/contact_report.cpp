@@ -89,6 +89,6 @@ ContactReport::OfPair ContactReport::of_pair(int i, int j) const {
     sum.es += list.pairs.es(k);
   };
   for (int p = rows.rows_of(i); p < rows.rows_of(i + 1); p++)
-    list.slots.for_each(p, add);
+    list.by_disc().for_each(p, add);
   return sum;
 }

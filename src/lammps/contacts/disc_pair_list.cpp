@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 using namespace LAMMPS_NS;
 
@@ -194,6 +195,7 @@ void DiscPairList::build() {
   law.rules.books = booking;
   kernels = cdem::kernels(law.rules, instructions);
   choose_skin();
+  pairs_of_discs.reset();
   listed.assign(atom->tag, atom->tag + atom->nlocal + atom->nghost);
   divide_into_blocks();
   find_pairs();
@@ -308,7 +310,11 @@ void DiscPairList::find_pairs() {
   };
 
   std::vector<int> sizes(by_types.size() * (block_starts.size() - 1), 0), next(sizes.size(), 0);
-  found.clear();
+  struct Found {
+    int p, q, segment; // rows; p is of the grain of the lower id
+  };
+  std::vector<Found> found;
+  found.reserve(std::accumulate(neighbours->numneigh, neighbours->numneigh + atom->nlocal, std::size_t(0)));
   for (int ii = 0; ii < neighbours->inum; ii++)
     for_each_candidate(neighbours->ilist[ii], [&](int p, int q, double square) {
       const int i = rows.grain(p), j = rows.grain(q), segment = segment_of(i, j);
@@ -325,6 +331,12 @@ void DiscPairList::find_pairs() {
       next[m] = (segment++)->begin;
   for (const auto &[p, q, segment] : found)
     pairs.set_discs(next[segment]++, p, q);
+}
+
+const cdem::PairsOfDiscs &DiscPairList::by_disc() const {
+  if (!pairs_of_discs)
+    pairs_of_discs = slots.by_disc(pairs);
+  return *pairs_of_discs;
 }
 
 void DiscPairList::refuse_same_centre(int p, int q) const {

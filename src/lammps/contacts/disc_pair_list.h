@@ -13,6 +13,7 @@
 #include "pointers.h"
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,9 @@ public:
   void book_losses();
   bool keeps_books() const { return booking; }
 
+  // The pairs of each disc, in the order of the sums; made when they are first asked for, and kept until the next list.
+  const cdem::PairsOfDiscs &by_disc() const;
+
   // --- of pair k, for code that looks at single contacts ---
   double mass(int k) const; // reduced mass of the two grains, or that of the grain against a wall (kg)
   double overlap(int k) const;
@@ -77,7 +81,9 @@ public:
   cdem::LawTable law;
 
   double bytes() const {
-    return rows.bytes() + double(found.capacity() * sizeof(Found)) + pairs.bytes() + slots.bytes();
+    return rows.bytes() + pairs.bytes() + slots.bytes() +
+           double((neighbours_built_at.capacity() + discs_built_at.capacity()) * sizeof(Place) +
+                  angle_built_at.capacity() * sizeof(double) + listed.capacity() * sizeof(tagint));
   }
 
 private:
@@ -130,10 +136,7 @@ private:
 
   std::vector<tagint> listed;    // ids of all grains, ghosts too, when the list of disc pairs was built
   std::vector<int> block_starts; // grains block_starts[k] ... block_starts[k+1]-1 are block k
-  struct Found {
-    int p, q, segment;
-  };
-  std::vector<Found> found; // pairs of rows for the list; p is of the grain of the lower id
+  mutable std::optional<cdem::PairsOfDiscs> pairs_of_discs;
   cdem::Kernels kernels{};
   bool fetches_ahead = false; // see Ahead in core/disc_pairs.h
   bool has_history = false;   // whether the list has the present histories, not the grains
