@@ -24,12 +24,13 @@ using namespace LAMMPS_NS;
 
 void DiscPairList::init(const cdem::LawTable &of_run, const ByTypes &by_types, const std::string &widest,
                         FixCDEMHistory *memory) {
+  audit = FixCDEMAudit::find(lmp);
+  move_history_to_grains(); // what the contacts of the last run remember, by its law
   law = of_run;
   coefficients = &by_types;
   instructions = widest;
   history = memory;
   history->list = this;
-  audit = FixCDEMAudit::find(lmp);
   remember_numbers();
   grains = FixCDEMGrains::find(lmp);
   rows.init(grains, cdem::kernels(law.rules, instructions));
@@ -469,7 +470,8 @@ void DiscPairList::book_losses() {
 void DiscPairList::copy_history_to_grains() {
   if (!has_history)
     return;
-  book_losses();
+  if (update->whichflag != 0) // else they were booked at the end of the run, and the audit may be gone
+    book_losses();
   const int own_grains = block_starts.back();
   const int memories = 1 + law.memories(), numbers = memories + (booking ? 2 + law.books() : 0);
   auto for_each_memory = [&](auto visit) { // visit(grain, contact as it remembers it, its numbers)

@@ -57,9 +57,7 @@ public:
   void copy_history_to_grains() override;
   void move_history_to_grains() override;
   void close_list() override;
-
-  // Adds the energy losses of the contacts that this rank counts to fix cdem/audit, if there is one.
-  void book_losses();
+  void book_losses() override; // of the contacts that this rank counts, in fix cdem/audit
   bool keeps_books() const { return booking; }
 
   // The pairs of each disc, in the order of the sums; made when they are first asked for, and kept until the next list.
