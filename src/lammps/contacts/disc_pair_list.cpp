@@ -23,12 +23,13 @@
 using namespace LAMMPS_NS;
 
 void DiscPairList::init(const cdem::LawTable &of_run, const ByTypes &by_types, const std::string &widest,
-                        FixCDEMHistory *memory) {
+                        FixCDEMHistory *memory, bool forces_are_read) {
   audit = FixCDEMAudit::find(lmp);
   move_history_to_grains(); // what the contacts of the last run remember, by its law
   law = of_run;
   coefficients = &by_types;
   instructions = widest;
+  keeps_forces = forces_are_read;
   history = memory;
   history->list = this;
   remember_numbers();
@@ -82,14 +83,14 @@ void DiscPairList::pair_forces(int block) {
     feet.remember_elsewhere(block, pairs);
 }
 
-void DiscPairList::forces() {
+void DiscPairList::forces(const LookAtForce &visit) {
   std::vector<Dashpots> at_end_of_step;
   if (update->setupflag && pairs.has_books())
     pairs.for_each([&](int k, const cdem::Material &) { at_end_of_step.push_back(pairs.last_dashpots_of(k)); });
   for (int block = 0; block < slots.blocks(); block++) {
     const int begin = block_starts[block], end = block_starts[block + 1];
     pair_forces(block);
-    keep_forces(block);
+    look_at_forces(block, visit);
     rows.sum_block(slots.block(block), begin, end);
     for (int i = begin; i < end; i++) {
       const auto [fx, fy, torque] = rows.force_on(i);
@@ -112,11 +113,19 @@ void DiscPairList::take_back(const std::vector<Dashpots> &known) {
   });
 }
 
-// Keeps the force of every pair, for code that looks at single contacts.
-void DiscPairList::keep_forces(int block) {
+// Later blocks use the slots again.
+void DiscPairList::look_at_forces(int block, const LookAtForce &visit) {
+  const bool kept = !pairs.force.empty();
+  if (!kept && !visit)
+    return;
   for (int s = pairs.first_segment[block]; s < pairs.first_segment[block + 1]; s++)
-    for (int k = pairs.segments[s].begin; k < pairs.segments[s].end; k++)
-      pairs.force[k] = slots.of_pair(pairs, k);
+    for (int k = pairs.segments[s].begin; k < pairs.segments[s].end; k++) {
+      const cdem::PairForce f = slots.of_pair(pairs, k);
+      if (kept)
+        pairs.force[k] = f;
+      if (visit && acts(k, f))
+        visit(k, f);
+    }
 }
 
 // A pair belongs to the block of its lower row, so later blocks have no pairs with the grains of this one. Once the
@@ -325,7 +334,7 @@ void DiscPairList::find_pairs() {
       found.push_back({p_first ? p : q, p_first ? q : p, segment});
       sizes[segment]++;
     });
-  pairs.lay_out(by_types, sizes, {law.memories(), law.constants(), booking ? 2 + law.books() : 0});
+  pairs.lay_out(by_types, sizes, {law.memories(), law.constants(), booking ? 2 + law.books() : 0, keeps_forces});
   auto segment = pairs.segments.begin();
   for (std::size_t m = 0; m < sizes.size(); m++)
     if (sizes[m])
@@ -423,9 +432,13 @@ double DiscPairList::overlap(int k) const {
 // A pair across a border is on two ranks (or twice on one, if periodic): the owner of disc a counts it.
 bool DiscPairList::counts(int k) const { return rows.grain(pairs.a(k)) < block_starts.back(); }
 
-bool DiscPairList::acts(int k) const {
-  const auto [fx, fy] = pairs.force[k];
-  return overlap(k) > 0 || fx != 0 || fy != 0;
+bool DiscPairList::acts(int k, const cdem::PairForce &f) const { return overlap(k) > 0 || f.fx != 0 || f.fy != 0; }
+
+const cdem::PairForce &DiscPairList::force(int k) const {
+  if (pairs.force.empty())
+    error->one(FLERR, "Pair style cdem: forces of single contacts are not kept if no compute is there that may "
+                      "look at them as a run begins");
+  return pairs.force[k];
 }
 
 void DiscPairList::close_list() {

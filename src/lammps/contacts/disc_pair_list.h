@@ -13,6 +13,7 @@
 #include "pointers.h"
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,7 +32,8 @@ public:
 
   // Coefficients by the types of two atoms, from 1 on; index 0 is not used.
   using ByTypes = std::vector<std::vector<cdem::Coefficients>>;
-  void init(const cdem::LawTable &, const ByTypes &, const std::string &instructions, FixCDEMHistory *);
+  void init(const cdem::LawTable &, const ByTypes &, const std::string &instructions, FixCDEMHistory *,
+            bool keeps_forces);
 
   void exchange_ghosts(); // gets the rows of ghosts from their owners
   // To be called when LAMMPS has rebuilt its list and the rows are filled.
@@ -43,8 +45,10 @@ public:
   // To be called when the time step has changed: the scale of the dashpots depends on it.
   void renew_constants();
 
-  // Computes the contact forces and adds them to f and torque of own grains.
-  void forces();
+  // Computes the contact forces and adds them to f and torque of own grains. Calls visit(k, force on disc a) for every
+  // pair that acts, if there is anything to call.
+  using LookAtForce = std::function<void(int, const cdem::PairForce &)>;
+  void forces(const LookAtForce &visit = {});
   // Computes the contact forces and moves the rows of own grains by a step. Sets f of the own walls in `felt` only.
   // Adds to the path of each grain, unless the last argument is null.
   void forces_and_advance(const cdem::StepRule &, const std::vector<int> &felt, cdem::Fastest &, cdem::Travel *);
@@ -66,8 +70,11 @@ public:
   // --- of pair k, for code that looks at single contacts ---
   double mass(int k) const; // reduced mass of the two grains, or that of the grain against a wall (kg)
   double overlap(int k) const;
-  // Whether its discs overlap, or still exert a force: a part of it may act on after the contact opened within a step.
-  bool acts(int k) const;
+  // Whether its discs overlap, or still exert this force: a part of it may act on after the contact opened within a
+  // step.
+  bool acts(int k, const cdem::PairForce &) const;
+  // On disc a in the last step of LAMMPS (N). An error if forces are not kept.
+  const cdem::PairForce &force(int k) const;
   bool counts(int k) const; // whether this rank is the one that counts it
   const cdem::Material &material(int k) const;
   cdem::LawTable::Energy energy(int k, const cdem::Material &) const;
@@ -100,7 +107,7 @@ private:
   void take_back(const std::vector<Dashpots> &);
   int most_pairs() const;
   void pair_forces(int block);
-  void keep_forces(int block);
+  void look_at_forces(int block, const LookAtForce &);
   void finish_step_in_books();
 
   // Where a grain was when a list was built: LAMMPS's list of grain pairs, or this list of disc pairs, which has a
@@ -121,7 +128,8 @@ private:
   const NeighList *neighbours = nullptr;
   const ByTypes *coefficients = nullptr;
   std::string instructions;
-  bool booking = false; // whether the list was built for an audit
+  bool keeps_forces = true; // of single pairs, for those who look at them
+  bool booking = false;     // whether the list was built for an audit
 
   std::vector<Place> neighbours_built_at; // of own grains
   std::vector<Place> discs_built_at;      // of all grains
