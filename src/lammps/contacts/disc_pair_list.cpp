@@ -59,9 +59,10 @@ void DiscPairList::exchange_ghosts() {
 
 void DiscPairList::rebuild(const NeighList *of_grains) {
   neighbours = of_grains;
+  const double step = cdem::GridPlace::step_for(neighbor->skin);
   neighbours_built_at.resize(atom->nlocal);
   for (int i = 0; i < atom->nlocal; i++)
-    neighbours_built_at[i] = {atom->x[i][0], atom->x[i][1]};
+    neighbours_built_at[i] = {atom->x[i][0], atom->x[i][1], step};
   build();
 }
 
@@ -146,30 +147,24 @@ void DiscPairList::forces_and_advance(const cdem::StepRule &step, const std::vec
   }
 }
 
-double DiscPairList::Place::moved(const cdem::Disc<double> &now) const {
-  const double dx = now.x - x, dy = now.y - y;
-  return std::sqrt(dx * dx + dy * dy);
-}
-
 double DiscPairList::room() const {
-  double most = 0;
-  for (int i = 0; i < atom->nlocal; i++) {
-    const double moved = neighbours_built_at[i].moved(rows.of_grain(i));
-    if (!std::isfinite(moved))
-      return -INFINITY; // then the list is rebuilt, but before that the guard ends the run and names the atom
-    most = std::max(most, moved);
-  }
+  const double step = cdem::GridPlace::step_for(neighbor->skin);
+  double most = 0; // infinite: then the list is rebuilt, but before that the guard ends the run and names the atom
+  for (int i = 0; i < atom->nlocal; i++)
+    most = std::max(most, neighbours_built_at[i].moved_to(rows.of_grain(i).x, rows.of_grain(i).y, step));
   return 0.5 * neighbor->skin - most;
 }
 
 // Bound on how far any point of a grain has moved since the list of disc pairs was built (m).
 double DiscPairList::most_moved() const {
+  const double step = cdem::GridPlace::step_for(skin);
   double most = 0;
   for (std::size_t i = 0; i < discs_built_at.size(); i++) {
-    double moved = discs_built_at[i].moved(rows.of_grain(i));
+    double moved = discs_built_at[i].moved_to(rows.of_grain(i).x, rows.of_grain(i).y, step);
     if (rows.has_clumps())
       moved += rows.reach(i) * std::fabs(rows.angle(i) - angle_built_at[i]);
-    most = std::max(most, moved);
+    if (std::isfinite(moved)) // else the guard will end the run
+      most = std::max(most, moved);
   }
   return most;
 }
@@ -227,7 +222,7 @@ void DiscPairList::build() {
   discs_built_at.resize(atom->nlocal + atom->nghost);
   angle_built_at.resize(rows.has_clumps() ? discs_built_at.size() : 0);
   for (std::size_t i = 0; i < discs_built_at.size(); i++)
-    discs_built_at[i] = {rows.of_grain(i).x, rows.of_grain(i).y};
+    discs_built_at[i] = {rows.of_grain(i).x, rows.of_grain(i).y, cdem::GridPlace::step_for(skin)};
   for (std::size_t i = 0; i < angle_built_at.size(); i++)
     angle_built_at[i] = rows.angle(i);
   room_left = 0.5 * skin;

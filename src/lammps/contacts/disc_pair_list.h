@@ -7,6 +7,7 @@
 #include "contacts/line_feet.h"
 #include "core/disc_pairs.h"
 #include "core/force_kernel.h"
+#include "core/grid_place.h"
 #include "core/law_table.h"
 #include "grains/grain_rows.h"
 
@@ -87,7 +88,7 @@ public:
 
   double bytes() const {
     return rows.bytes() + pairs.bytes() + slots.bytes() +
-           double((neighbours_built_at.capacity() + discs_built_at.capacity()) * sizeof(Place) +
+           double((neighbours_built_at.capacity() + discs_built_at.capacity()) * sizeof(cdem::GridPlace) +
                   angle_built_at.capacity() * sizeof(double) + listed.capacity() * sizeof(tagint));
   }
 
@@ -110,12 +111,6 @@ private:
   void look_at_forces(int block, const LookAtForce &);
   void finish_step_in_books();
 
-  // Where a grain was when a list was built: LAMMPS's list of grain pairs, or this list of disc pairs, which has a
-  // smaller skin and must also be rebuilt when grains turn.
-  struct Place {
-    double x, y;
-    double moved(const cdem::Disc<double> &) const;
-  };
   double most_moved() const;
 
   double square_distance(int p, int q) const;
@@ -131,14 +126,16 @@ private:
   bool keeps_forces = true; // of single pairs, for those who look at them
   bool booking = false;     // whether the list was built for an audit
 
-  std::vector<Place> neighbours_built_at; // of own grains
-  std::vector<Place> discs_built_at;      // of all grains
-  std::vector<double> angle_built_at;     // of all grains; empty if all are single discs
-  double skin = 0;                        // pairs with a gap up to this are in the list (m)
-  double room_left = 0;                   // any point of a grain may still move at least so far (m)
-  double speed = -1;                      // largest distance from the last list, over its steps (m); -1: unknown
-  bigint built_in_step = 0;               // when the list was built
-  bool is_of_run = false;                 // whether it was built in this run
+  // Where grains were when a list was built: LAMMPS's list of grain pairs, or this list of disc pairs, which has a
+  // smaller skin and must also be rebuilt when grains turn.
+  std::vector<cdem::GridPlace> neighbours_built_at; // of own grains
+  std::vector<cdem::GridPlace> discs_built_at;      // of all grains
+  std::vector<double> angle_built_at;               // of all grains; empty if all are single discs
+  double skin = 0;                                  // pairs with a gap up to this are in the list (m)
+  double room_left = 0;                             // any point of a grain may still move at least so far (m)
+  double speed = -1;        // largest distance from the last list, over its steps (m); -1: unknown
+  bigint built_in_step = 0; // when the list was built
+  bool is_of_run = false;   // whether it was built in this run
 
   std::vector<tagint> listed;    // ids of all grains, ghosts too, when the list of disc pairs was built
   std::vector<int> block_starts; // grains block_starts[k] ... block_starts[k+1]-1 are block k
