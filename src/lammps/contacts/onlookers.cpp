@@ -6,13 +6,13 @@
 #include "modify.h"
 
 #include <algorithm>
-#include <string>
+#include <string_view>
 
 using namespace LAMMPS_NS;
 
 namespace {
-const std::string DO_NOT[] = {"temp",       "pressure",   "pe",         "ke",      "cdem/energy",
-                              "cdem/force", "cdem/discs", "cdem/limit", "cdem/trm"};
+constexpr std::string_view DO_NOT[] = {"temp",       "pressure",   "pe",         "ke",      "cdem/energy",
+                                       "cdem/force", "cdem/discs", "cdem/limit", "cdem/trm"};
 }
 
 bool LAMMPS_NS::contacts_are_looked_at(LAMMPS *lmp) {
