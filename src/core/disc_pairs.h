@@ -62,7 +62,7 @@ public:
   std::vector<Segment> segments; // block k has segments first_segment[k] ... first_segment[k+1]-1
   std::vector<int> first_segment;
   Column<double> friction, dashpots; // J, see Losses; empty without an energy audit
-  Column<PairForce> force;           // of the last step whose pair forces were kept, see ForceSlots::of_pair
+  Column<PairForce> force; // of the last step whose pair forces were kept, see ForceSlots::of_pair; may be empty
 
   // Rows of the two discs of pair k; a belongs to the grain of the lower id.
   int a(int k) const { return group(k).a[k % SIZE] / ROW; }
@@ -126,6 +126,7 @@ public:
   // How many numbers per pair the law adds.
   struct Width {
     int memories = 0, constants = 0, last_dashpots = 0; // last_dashpots: 0 without an energy audit
+    bool force = true;                                  // whether forces of single pairs are kept
   };
   // Makes room for segments of these sizes, in the order of blocks and within a block of materials. All entries are
   // zero.
@@ -147,7 +148,7 @@ public:
     last_dashpots.lay_out(width.last_dashpots, next);
     for (auto *column : {&friction, &dashpots})
       column->reset(has_books() ? next : 0);
-    force.reset(next);
+    force.reset(width.force ? next : 0);
   }
 
   int entries() const { return int(groups.size() - 1) * SIZE; } // including those not used

@@ -9,6 +9,7 @@
 #include "disc_pairs.h"
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 namespace cdem {
@@ -71,6 +72,38 @@ inline int block_of(const std::vector<int> &starts, int row) {
   return int(std::upper_bound(starts.begin(), starts.end(), row) - starts.begin()) - 1;
 }
 
+// The pairs of each disc of blocks. Made where it is needed, and not kept: a step does without.
+class PairsOfDiscs {
+public:
+  // Of rows 0 ... n-1, in the order of the pairs.
+  PairsOfDiscs(const DiscPairs &pairs, int n) : first(n + 1, 0) {
+    auto for_each_side = [&](auto visit) {
+      pairs.for_each([&](int k, const Material &) {
+        for (int row : {pairs.a(k), pairs.b(k)})
+          if (row < n)
+            visit(row, k);
+      });
+    };
+    for_each_side([&](int row, int) { first[row + 1]++; });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    all.resize(first.back());
+    std::vector<int> next(first.begin(), first.end() - 1);
+    for_each_side([&](int row, int k) { all[next[row]++] = k; });
+  }
+
+  int total() const { return int(all.size()); }
+  int count(int row) const { return first[row + 1] - first[row]; }
+  int *begin(int row) { return all.data() + first[row]; }
+  int *end(int row) { return all.data() + first[row + 1]; }
+  // Calls visit(k) for every pair k of a disc.
+  template <class Visit> void for_each(int row, Visit visit) const {
+    std::for_each(all.data() + first[row], all.data() + first[row + 1], visit);
+  }
+
+private:
+  std::vector<int> first, all;
+};
+
 class ForceSlots {
 public:
   // Rows starts[k] ... starts[k+1]-1 are block k. The forces on a disc are summed in ascending rank(row of the other
@@ -78,16 +111,12 @@ public:
   template <class Rank, class IsWall>
   void build(DiscPairs &pairs, const std::vector<int> &starts, Rank rank, IsWall is_wall) {
     const int n = starts.back();
-    count_slots(pairs, n);
+    PairsOfDiscs of_discs(pairs, n);
+    counts.resize(n);
+    for (int row = 0; row < n; row++)
+      counts[row] = of_discs.count(row);
     make_runs(starts, is_wall);
-    assign_slots(pairs, starts);
-    pair_of_slot.resize(total);
-    std::vector<int> next = first_pair;
-    pairs.for_each([&](int k, const Material &) {
-      for (int row : {pairs.a(k), pairs.b(k)})
-        if (row < n)
-          pair_of_slot[next[row]++] = k;
-    });
+    assign_slots(pairs, starts, of_discs.total());
     for (int k = 0; k < pairs.entries(); k++) {
       pairs.set_slot_a(k, unsummed());
       pairs.set_slot_b(k, unsummed());
@@ -100,26 +129,27 @@ public:
     std::vector<Side> sides;
     for (int row = 0; row < n; row++) {
       sides.clear();
-      const auto begin = pair_of_slot.begin() + first_pair[row], end = begin + counts[row];
-      for (auto pair = begin; pair != end; ++pair) {
-        const bool is_a = pairs.a(*pair) == row;
-        sides.push_back({rank(is_a ? pairs.b(*pair) : pairs.a(*pair)), *pair, is_a});
-      }
+      of_discs.for_each(row, [&](int pair) {
+        const bool is_a = pairs.a(pair) == row;
+        sides.push_back({rank(is_a ? pairs.b(pair) : pairs.a(pair)), pair, is_a});
+      });
       std::sort(sides.begin(), sides.end(), [](const Side &s, const Side &t) { return s.partner < t.partner; });
-      for (int s = 0; s < counts[row]; s++) {
-        const auto &[partner, pair, is_a] = sides[s];
-        begin[s] = pair;
-        is_a ? pairs.set_slot_a(pair, first_slot[row] + s) : pairs.set_slot_b(pair, first_slot[row] + s);
-      }
+      int slot = first_slot[row];
+      for (const auto &[partner, pair, is_a] : sides)
+        is_a ? pairs.set_slot_a(pair, slot++) : pairs.set_slot_b(pair, slot++);
     }
   }
 
   int pairs_of(int row) const { return counts[row]; }
 
-  // Calls visit(k) for every pair k of a disc.
-  template <class Visit> void for_each(int row, Visit visit) const {
-    const auto begin = pair_of_slot.begin() + first_pair[row];
-    std::for_each(begin, begin + counts[row], visit);
+  // The pairs of each disc, in the order in which its forces are summed.
+  PairsOfDiscs by_disc(const DiscPairs &pairs) const {
+    PairsOfDiscs of_discs(pairs, int(counts.size()));
+    for (int row = 0; row < int(counts.size()); row++) {
+      auto slot = [&](int k) { return pairs.a(k) == row ? pairs.slot_a(k) : pairs.slot_b(k); };
+      std::sort(of_discs.begin(row), of_discs.end(row), [&](int k, int l) { return slot(k) < slot(l); });
+    }
+    return of_discs;
   }
 
   // The sum of the forces on one disc, with the same bits as for_each_sum; valid until the next block is computed.
@@ -148,29 +178,12 @@ public:
   Forces<double> *data() { return slots.data(); }
 
   double bytes() const {
-    return double(order.capacity() + first_slot.capacity() + first_pair.capacity() + counts.capacity() +
-                  pair_of_slot.capacity()) *
-               sizeof(int) +
+    return double(order.capacity() + first_slot.capacity() + counts.capacity()) * sizeof(int) +
            double(runs.capacity() * sizeof(SlotRun) + slots.capacity() * sizeof(slots[0]));
   }
 
 private:
   int unsummed() const { return int(slots.size()) - 1; } // of all forces that are not summed: on ghosts
-
-  void count_slots(const DiscPairs &pairs, int n) {
-    counts.assign(n, 0);
-    pairs.for_each([&](int k, const Material &) {
-      for (int row : {pairs.a(k), pairs.b(k)})
-        if (row < n)
-          counts[row]++;
-    });
-    first_pair.resize(n);
-    total = 0;
-    for (int row = 0; row < n; row++) {
-      first_pair[row] = total;
-      total += counts[row];
-    }
-  }
 
   // In each block, grains come before walls, and discs with the same number of slots follow each other.
   template <class IsWall> void make_runs(const std::vector<int> &starts, IsWall is_wall) {
@@ -202,7 +215,8 @@ private:
   // Blocks are computed and summed in turn. A pair may write to slots of a later block, so a block's slots are in use
   // from the first block with such a pair until its own sum. After that later blocks reuse the memory, so that all
   // slots in use stay in the cache.
-  void assign_slots(const DiscPairs &pairs, const std::vector<int> &starts) {
+  // `total`: forces to be summed in a step; there are fewer slots, since blocks reuse them.
+  void assign_slots(const DiscPairs &pairs, const std::vector<int> &starts, int total) {
     const int blocks = int(starts.size()) - 1;
     std::vector<int> end(blocks + 1, 0); // end[k]: number of slots of the blocks before k
     read_ends.assign(blocks, 0);
@@ -237,10 +251,8 @@ private:
   }
 
   Column<Forces<double>> slots;
-  int total = 0; // forces to be summed in a step; there are fewer slots, since blocks reuse them
   std::vector<int> order;
-  std::vector<int> first_slot, first_pair, counts; // of each disc; its pairs begin at pair_of_slot[first_pair]
-  std::vector<int> pair_of_slot;
+  std::vector<int> first_slot, counts; // of each disc
   std::vector<SlotRun> runs;
   std::vector<int> first_run, first_wall_run, block_slot, read_ends; // of each block
 };

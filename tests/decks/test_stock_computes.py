@@ -199,3 +199,19 @@ def test_suffixes_change_nothing(tmp_path: Path, suffix: str) -> None:
             ).end
         )  # fmt: skip
     assert same_bits(ends[0], ends[1])
+
+
+@pytest.mark.parametrize("onlooker", ["", "compute contacts all cdem/contacts"])
+def test_thermo_needs_no_onlooker(tmp_path: Path, onlooker: str) -> None:
+    """Forces of single contacts are kept only if a compute may look at them. Energy and pressure of thermo output are
+    those of the closed forms of above without it too."""
+    deck = f"""
+    {begin("disc")}
+    {onlooker}
+    thermo_style custom step pe press
+    thermo_modify norm no format float %.17g
+    run 0
+    """
+    end = run(deck, tmp_path, discs=pressed("disc"), box=BOX).thermo
+    assert end["PotEng"] == pytest.approx(0.5 * KN * OVERLAP**2, rel=1e-9)
+    assert end["Press"] == pytest.approx(0.5 * KN * OVERLAP * (D - OVERLAP) / AREA, rel=1e-9)

@@ -10,7 +10,7 @@ using namespace LAMMPS_NS;
 std::vector<ContactReport::Contact> ContactReport::contacts() const {
   std::vector<Contact> all;
   list.pairs.for_each([&](int k, const cdem::Material &) {
-    if (list.acts(k))
+    if (list.acts(k, list.force(k)))
       all.push_back(contact(k));
   });
   return all;
@@ -20,7 +20,7 @@ ContactReport::Contact ContactReport::contact(int k) const {
   const GrainRows &rows = list.rows;
   const int p = list.pairs.a(k), q = list.pairs.b(k);
   const double dx = rows[p].x - rows[q].x, dy = rows[p].y - rows[q].y, distance = std::hypot(dx, dy);
-  const auto [fx, fy] = list.pairs.force[k];
+  const auto [fx, fy] = list.force(k);
 
   Contact c;
   c.grain_a = rows.grain(p);
@@ -78,7 +78,7 @@ ContactReport::OfPair ContactReport::of_pair(int i, int j) const {
   OfPair sum{0, 0, 0, 0, 0};
   auto add = [&](int k) {
     const int p = list.pairs.a(k), q = list.pairs.b(k), other = rows.grain(p) == i ? rows.grain(q) : rows.grain(p);
-    if (atom->tag[other] != atom->tag[j] || !list.acts(k))
+    if (atom->tag[other] != atom->tag[j] || !list.acts(k, list.force(k)))
       return;
     const Contact c = contact(k);
     const auto [normal, tangential, added] = list.energy(k, list.material(k));
@@ -89,6 +89,6 @@ ContactReport::OfPair ContactReport::of_pair(int i, int j) const {
     sum.es += list.pairs.es(k);
   };
   for (int p = rows.rows_of(i); p < rows.rows_of(i + 1); p++)
-    list.slots.for_each(p, add);
+    list.by_disc().for_each(p, add);
   return sum;
 }

@@ -49,17 +49,6 @@ public:
   };
   OfPair of_pair(int i, int j) const;
 
-  // Calls visit(grain, grain, energy (J), force on the first (N)) for all contacts that act.
-  template <class Visit> void for_each_acting(bool with_energy, Visit visit) const {
-    list.pairs.for_each([&](int k, const cdem::Material &m) {
-      if (!list.acts(k))
-        return;
-      const auto e = with_energy ? list.energy(k, m) : cdem::LawTable::Energy{0, 0, 0};
-      visit(list.rows.grain(list.pairs.a(k)), list.rows.grain(list.pairs.b(k)), e.normal + e.tangential + e.added,
-            list.pairs.force[k]);
-    });
-  }
-
 private:
   Contact contact(int k) const;
 

@@ -18,17 +18,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 using namespace LAMMPS_NS;
 
 void DiscPairList::init(const cdem::LawTable &of_run, const ByTypes &by_types, const std::string &widest,
-                        FixCDEMHistory *memory) {
+                        FixCDEMHistory *memory, bool forces_are_read) {
+  audit = FixCDEMAudit::find(lmp);
+  move_history_to_grains(); // what the contacts of the last run remember, by its law
   law = of_run;
   coefficients = &by_types;
   instructions = widest;
+  keeps_forces = forces_are_read;
   history = memory;
   history->list = this;
-  audit = FixCDEMAudit::find(lmp);
   remember_numbers();
   grains = FixCDEMGrains::find(lmp);
   rows.init(grains, cdem::kernels(law.rules, instructions));
@@ -56,9 +59,10 @@ void DiscPairList::exchange_ghosts() {
 
 void DiscPairList::rebuild(const NeighList *of_grains) {
   neighbours = of_grains;
+  const double step = cdem::GridPlace::step_for(neighbor->skin);
   neighbours_built_at.resize(atom->nlocal);
   for (int i = 0; i < atom->nlocal; i++)
-    neighbours_built_at[i] = {atom->x[i][0], atom->x[i][1]};
+    neighbours_built_at[i] = {atom->x[i][0], atom->x[i][1], step};
   build();
 }
 
@@ -80,14 +84,14 @@ void DiscPairList::pair_forces(int block) {
     feet.remember_elsewhere(block, pairs);
 }
 
-void DiscPairList::forces() {
+void DiscPairList::forces(const LookAtForce &visit) {
   std::vector<Dashpots> at_end_of_step;
   if (update->setupflag && pairs.has_books())
     pairs.for_each([&](int k, const cdem::Material &) { at_end_of_step.push_back(pairs.last_dashpots_of(k)); });
   for (int block = 0; block < slots.blocks(); block++) {
     const int begin = block_starts[block], end = block_starts[block + 1];
     pair_forces(block);
-    keep_forces(block);
+    look_at_forces(block, visit);
     rows.sum_block(slots.block(block), begin, end);
     for (int i = begin; i < end; i++) {
       const auto [fx, fy, torque] = rows.force_on(i);
@@ -110,11 +114,19 @@ void DiscPairList::take_back(const std::vector<Dashpots> &known) {
   });
 }
 
-// Keeps the force of every pair, for code that looks at single contacts.
-void DiscPairList::keep_forces(int block) {
+// Later blocks use the slots again.
+void DiscPairList::look_at_forces(int block, const LookAtForce &visit) {
+  const bool kept = !pairs.force.empty();
+  if (!kept && !visit)
+    return;
   for (int s = pairs.first_segment[block]; s < pairs.first_segment[block + 1]; s++)
-    for (int k = pairs.segments[s].begin; k < pairs.segments[s].end; k++)
-      pairs.force[k] = slots.of_pair(pairs, k);
+    for (int k = pairs.segments[s].begin; k < pairs.segments[s].end; k++) {
+      const cdem::PairForce f = slots.of_pair(pairs, k);
+      if (kept)
+        pairs.force[k] = f;
+      if (visit && acts(k, f))
+        visit(k, f);
+    }
 }
 
 // A pair belongs to the block of its lower row, so later blocks have no pairs with the grains of this one. Once the
@@ -135,30 +147,24 @@ void DiscPairList::forces_and_advance(const cdem::StepRule &step, const std::vec
   }
 }
 
-double DiscPairList::Place::moved(const cdem::Disc<double> &now) const {
-  const double dx = now.x - x, dy = now.y - y;
-  return std::sqrt(dx * dx + dy * dy);
-}
-
 double DiscPairList::room() const {
-  double most = 0;
-  for (int i = 0; i < atom->nlocal; i++) {
-    const double moved = neighbours_built_at[i].moved(rows.of_grain(i));
-    if (!std::isfinite(moved))
-      return -INFINITY; // then the list is rebuilt, but before that the guard ends the run and names the atom
-    most = std::max(most, moved);
-  }
+  const double step = cdem::GridPlace::step_for(neighbor->skin);
+  double most = 0; // infinite: then the list is rebuilt, but before that the guard ends the run and names the atom
+  for (int i = 0; i < atom->nlocal; i++)
+    most = std::max(most, neighbours_built_at[i].moved_to(rows.of_grain(i).x, rows.of_grain(i).y, step));
   return 0.5 * neighbor->skin - most;
 }
 
 // Bound on how far any point of a grain has moved since the list of disc pairs was built (m).
 double DiscPairList::most_moved() const {
+  const double step = cdem::GridPlace::step_for(skin);
   double most = 0;
   for (std::size_t i = 0; i < discs_built_at.size(); i++) {
-    double moved = discs_built_at[i].moved(rows.of_grain(i));
+    double moved = discs_built_at[i].moved_to(rows.of_grain(i).x, rows.of_grain(i).y, step);
     if (rows.has_clumps())
       moved += rows.reach(i) * std::fabs(rows.angle(i) - angle_built_at[i]);
-    most = std::max(most, moved);
+    if (std::isfinite(moved)) // else the guard will end the run
+      most = std::max(most, moved);
   }
   return most;
 }
@@ -194,6 +200,7 @@ void DiscPairList::build() {
   law.rules.books = booking;
   kernels = cdem::kernels(law.rules, instructions);
   choose_skin();
+  pairs_of_discs.reset();
   listed.assign(atom->tag, atom->tag + atom->nlocal + atom->nghost);
   divide_into_blocks();
   find_pairs();
@@ -215,7 +222,7 @@ void DiscPairList::build() {
   discs_built_at.resize(atom->nlocal + atom->nghost);
   angle_built_at.resize(rows.has_clumps() ? discs_built_at.size() : 0);
   for (std::size_t i = 0; i < discs_built_at.size(); i++)
-    discs_built_at[i] = {rows.of_grain(i).x, rows.of_grain(i).y};
+    discs_built_at[i] = {rows.of_grain(i).x, rows.of_grain(i).y, cdem::GridPlace::step_for(skin)};
   for (std::size_t i = 0; i < angle_built_at.size(); i++)
     angle_built_at[i] = rows.angle(i);
   room_left = 0.5 * skin;
@@ -308,7 +315,11 @@ void DiscPairList::find_pairs() {
   };
 
   std::vector<int> sizes(by_types.size() * (block_starts.size() - 1), 0), next(sizes.size(), 0);
-  found.clear();
+  struct Found {
+    int p, q, segment; // rows; p is of the grain of the lower id
+  };
+  std::vector<Found> found;
+  found.reserve(std::accumulate(neighbours->numneigh, neighbours->numneigh + atom->nlocal, std::size_t(0)));
   for (int ii = 0; ii < neighbours->inum; ii++)
     for_each_candidate(neighbours->ilist[ii], [&](int p, int q, double square) {
       const int i = rows.grain(p), j = rows.grain(q), segment = segment_of(i, j);
@@ -318,13 +329,19 @@ void DiscPairList::find_pairs() {
       found.push_back({p_first ? p : q, p_first ? q : p, segment});
       sizes[segment]++;
     });
-  pairs.lay_out(by_types, sizes, {law.memories(), law.constants(), booking ? 2 + law.books() : 0});
+  pairs.lay_out(by_types, sizes, {law.memories(), law.constants(), booking ? 2 + law.books() : 0, keeps_forces});
   auto segment = pairs.segments.begin();
   for (std::size_t m = 0; m < sizes.size(); m++)
     if (sizes[m])
       next[m] = (segment++)->begin;
   for (const auto &[p, q, segment] : found)
     pairs.set_discs(next[segment]++, p, q);
+}
+
+const cdem::PairsOfDiscs &DiscPairList::by_disc() const {
+  if (!pairs_of_discs)
+    pairs_of_discs = slots.by_disc(pairs);
+  return *pairs_of_discs;
 }
 
 void DiscPairList::refuse_same_centre(int p, int q) const {
@@ -410,9 +427,13 @@ double DiscPairList::overlap(int k) const {
 // A pair across a border is on two ranks (or twice on one, if periodic): the owner of disc a counts it.
 bool DiscPairList::counts(int k) const { return rows.grain(pairs.a(k)) < block_starts.back(); }
 
-bool DiscPairList::acts(int k) const {
-  const auto [fx, fy] = pairs.force[k];
-  return overlap(k) > 0 || fx != 0 || fy != 0;
+bool DiscPairList::acts(int k, const cdem::PairForce &f) const { return overlap(k) > 0 || f.fx != 0 || f.fy != 0; }
+
+const cdem::PairForce &DiscPairList::force(int k) const {
+  if (pairs.force.empty())
+    error->one(FLERR, "Pair style cdem: forces of single contacts are not kept if no compute is there that may "
+                      "look at them as a run begins");
+  return pairs.force[k];
 }
 
 void DiscPairList::close_list() {
@@ -457,7 +478,8 @@ void DiscPairList::book_losses() {
 void DiscPairList::copy_history_to_grains() {
   if (!has_history)
     return;
-  book_losses();
+  if (update->whichflag != 0) // else they were booked at the end of the run, and the audit may be gone
+    book_losses();
   const int own_grains = block_starts.back();
   const int memories = 1 + law.memories(), numbers = memories + (booking ? 2 + law.books() : 0);
   auto for_each_memory = [&](auto visit) { // visit(grain, contact as it remembers it, its numbers)

@@ -7,12 +7,15 @@
 #include "contacts/line_feet.h"
 #include "core/disc_pairs.h"
 #include "core/force_kernel.h"
+#include "core/grid_place.h"
 #include "core/law_table.h"
 #include "grains/grain_rows.h"
 
 #include "pointers.h"
 
 #include <array>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +33,8 @@ public:
 
   // Coefficients by the types of two atoms, from 1 on; index 0 is not used.
   using ByTypes = std::vector<std::vector<cdem::Coefficients>>;
-  void init(const cdem::LawTable &, const ByTypes &, const std::string &instructions, FixCDEMHistory *);
+  void init(const cdem::LawTable &, const ByTypes &, const std::string &instructions, FixCDEMHistory *,
+            bool keeps_forces);
 
   void exchange_ghosts(); // gets the rows of ghosts from their owners
   // To be called when LAMMPS has rebuilt its list and the rows are filled.
@@ -42,8 +46,10 @@ public:
   // To be called when the time step has changed: the scale of the dashpots depends on it.
   void renew_constants();
 
-  // Computes the contact forces and adds them to f and torque of own grains.
-  void forces();
+  // Computes the contact forces and adds them to f and torque of own grains. Calls visit(k, force on disc a) for every
+  // pair that acts, if there is anything to call.
+  using LookAtForce = std::function<void(int, const cdem::PairForce &)>;
+  void forces(const LookAtForce &visit = {});
   // Computes the contact forces and moves the rows of own grains by a step. Sets f of the own walls in `felt` only.
   // Adds to the path of each grain, unless the last argument is null.
   void forces_and_advance(const cdem::StepRule &, const std::vector<int> &felt, cdem::Fastest &, cdem::Travel *);
@@ -56,16 +62,20 @@ public:
   void copy_history_to_grains() override;
   void move_history_to_grains() override;
   void close_list() override;
-
-  // Adds the energy losses of the contacts that this rank counts to fix cdem/audit, if there is one.
-  void book_losses();
+  void book_losses() override; // of the contacts that this rank counts, in fix cdem/audit
   bool keeps_books() const { return booking; }
+
+  // The pairs of each disc, in the order of the sums; made when they are first asked for, and kept until the next list.
+  const cdem::PairsOfDiscs &by_disc() const;
 
   // --- of pair k, for code that looks at single contacts ---
   double mass(int k) const; // reduced mass of the two grains, or that of the grain against a wall (kg)
   double overlap(int k) const;
-  // Whether its discs overlap, or still exert a force: a part of it may act on after the contact opened within a step.
-  bool acts(int k) const;
+  // Whether its discs overlap, or still exert this force: a part of it may act on after the contact opened within a
+  // step.
+  bool acts(int k, const cdem::PairForce &) const;
+  // On disc a in the last step of LAMMPS (N). An error if forces are not kept.
+  const cdem::PairForce &force(int k) const;
   bool counts(int k) const; // whether this rank is the one that counts it
   const cdem::Material &material(int k) const;
   cdem::LawTable::Energy energy(int k, const cdem::Material &) const;
@@ -77,7 +87,9 @@ public:
   cdem::LawTable law;
 
   double bytes() const {
-    return rows.bytes() + double(found.capacity() * sizeof(Found)) + pairs.bytes() + slots.bytes();
+    return rows.bytes() + pairs.bytes() + slots.bytes() +
+           double((neighbours_built_at.capacity() + discs_built_at.capacity()) * sizeof(cdem::GridPlace) +
+                  angle_built_at.capacity() * sizeof(double) + listed.capacity() * sizeof(tagint));
   }
 
 private:
@@ -96,15 +108,9 @@ private:
   void take_back(const std::vector<Dashpots> &);
   int most_pairs() const;
   void pair_forces(int block);
-  void keep_forces(int block);
+  void look_at_forces(int block, const LookAtForce &);
   void finish_step_in_books();
 
-  // Where a grain was when a list was built: LAMMPS's list of grain pairs, or this list of disc pairs, which has a
-  // smaller skin and must also be rebuilt when grains turn.
-  struct Place {
-    double x, y;
-    double moved(const cdem::Disc<double> &) const;
-  };
   double most_moved() const;
 
   double square_distance(int p, int q) const;
@@ -117,23 +123,23 @@ private:
   const NeighList *neighbours = nullptr;
   const ByTypes *coefficients = nullptr;
   std::string instructions;
-  bool booking = false; // whether the list was built for an audit
+  bool keeps_forces = true; // of single pairs, for those who look at them
+  bool booking = false;     // whether the list was built for an audit
 
-  std::vector<Place> neighbours_built_at; // of own grains
-  std::vector<Place> discs_built_at;      // of all grains
-  std::vector<double> angle_built_at;     // of all grains; empty if all are single discs
-  double skin = 0;                        // pairs with a gap up to this are in the list (m)
-  double room_left = 0;                   // any point of a grain may still move at least so far (m)
-  double speed = -1;                      // largest distance from the last list, over its steps (m); -1: unknown
-  bigint built_in_step = 0;               // when the list was built
-  bool is_of_run = false;                 // whether it was built in this run
+  // Where grains were when a list was built: LAMMPS's list of grain pairs, or this list of disc pairs, which has a
+  // smaller skin and must also be rebuilt when grains turn.
+  std::vector<cdem::GridPlace> neighbours_built_at; // of own grains
+  std::vector<cdem::GridPlace> discs_built_at;      // of all grains
+  std::vector<double> angle_built_at;               // of all grains; empty if all are single discs
+  double skin = 0;                                  // pairs with a gap up to this are in the list (m)
+  double room_left = 0;                             // any point of a grain may still move at least so far (m)
+  double speed = -1;        // largest distance from the last list, over its steps (m); -1: unknown
+  bigint built_in_step = 0; // when the list was built
+  bool is_of_run = false;   // whether it was built in this run
 
   std::vector<tagint> listed;    // ids of all grains, ghosts too, when the list of disc pairs was built
   std::vector<int> block_starts; // grains block_starts[k] ... block_starts[k+1]-1 are block k
-  struct Found {
-    int p, q, segment;
-  };
-  std::vector<Found> found; // pairs of rows for the list; p is of the grain of the lower id
+  mutable std::optional<cdem::PairsOfDiscs> pairs_of_discs;
   cdem::Kernels kernels{};
   bool fetches_ahead = false; // see Ahead in core/disc_pairs.h
   bool has_history = false;   // whether the list has the present histories, not the grains

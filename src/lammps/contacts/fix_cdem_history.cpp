@@ -11,6 +11,7 @@
 #include "comm.h"
 #include "error.h"
 #include "lmptype.h"
+#include "update.h"
 
 #include <algorithm>
 #include <climits>
@@ -118,7 +119,12 @@ void FixCDEMHistory::agree_on_room() {
   MPI_Allreduce(&mine, &maxexchange, 1, MPI_INT, MPI_MAX, world);
 }
 
-void FixCDEMHistory::post_run() { take_from_list(); }
+// Between runs the list still has the histories, until somebody needs them here: grains come or go, a restart file is
+// written, another run begins. The books are read before.
+void FixCDEMHistory::post_run() {
+  if (list)
+    list->book_losses();
+}
 
 bool FixCDEMHistory::has_new_ids() const {
   int mine = 0, all;
@@ -207,7 +213,10 @@ void FixCDEMHistory::copy_arrays(int i, int j, int) {
   owner[j] = owner[i];
 }
 
+// Between runs a new grain may take the place of one that is gone, and must not get its contacts.
 void FixCDEMHistory::set_arrays(int i) {
+  if (update->whichflag == 0)
+    take_from_list();
   count[i] = 0;
   owner[i] = NOBODY;
 }

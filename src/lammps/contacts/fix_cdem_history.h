@@ -26,6 +26,8 @@ public:
   virtual void move_history_to_grains() = 0;
   // The same, when atoms have moved and the list is to be rebuilt: also books the energy losses of the step.
   virtual void close_list() = 0;
+  // Books the energy losses of the contacts since the last call, if there is an audit.
+  virtual void book_losses() = 0;
 };
 
 class FixCDEMHistory : public Fix, public Glides {

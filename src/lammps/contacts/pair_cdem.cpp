@@ -2,6 +2,7 @@
 #include "contacts/pair_cdem.h"
 
 #include "contacts/fix_cdem_history.h"
+#include "contacts/onlookers.h"
 #include "grains/fix_cdem_grains.h"
 #include "grains/fix_cdem_shape.h"
 #include "host/compat.h"
@@ -150,7 +151,7 @@ void PairCDEM::init_style() {
   Shearbox::request_half_size_list(lmp, this, instance_me);
   if (!history)
     history = static_cast<FixCDEMHistory *>(modify->add_fix(std::string(FixCDEMHistory::ID) + " all cdem/history"));
-  contacts.init(law.table(), law.coefficients, law.instructions, history);
+  contacts.init(law.table(), law.coefficients, law.instructions, history, contacts_are_looked_at(lmp));
   check_atoms();
   check_lines();
   if (update->whichflag != 0) // else no run begins
@@ -235,9 +236,7 @@ void PairCDEM::compute(int eflag, int vflag) {
     contacts.rebuild(list);
   else
     contacts.refresh();
-  contacts.forces();
-  if (evflag)
-    tally();
+  contacts.forces(evflag ? [this](int k, const cdem::PairForce &f) { tally(k, f); } : DiscPairList::LookAtForce());
 }
 
 int PairCDEM::pack_forward_comm(int n, int *list, double *buf, int pbc_flag, int *pbc) {
@@ -246,12 +245,16 @@ int PairCDEM::pack_forward_comm(int n, int *list, double *buf, int pbc_flag, int
 
 void PairCDEM::unpack_forward_comm(int n, int first, double *buf) { contacts.rows.unpack(n, first, buf); }
 
-// Adds energy and virial of the contacts to LAMMPS's sums. The branch vector is from grain centre to grain centre.
-void PairCDEM::tally() {
-  report.for_each_acting(eflag_either, [this](int i, int j, double energy, const cdem::PairForce &f) {
-    const double *const xi = atom->x[i], *const xj = atom->x[j];
-    ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, energy, 0, f.fx, f.fy, 0, xi[0] - xj[0], xi[1] - xj[1], 0);
-  });
+// Adds energy and virial of a contact to LAMMPS's sums. The branch vector is from grain centre to grain centre.
+void PairCDEM::tally(int k, const cdem::PairForce &f) {
+  const int i = contacts.rows.grain(contacts.pairs.a(k)), j = contacts.rows.grain(contacts.pairs.b(k));
+  const double *const xi = atom->x[i], *const xj = atom->x[j];
+  double energy = 0;
+  if (eflag_either) {
+    const auto [normal, tangential, added] = contacts.energy(k, contacts.material(k));
+    energy = normal + tangential + added;
+  }
+  ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, energy, 0, f.fx, f.fy, 0, xi[0] - xj[0], xi[1] - xj[1], 0);
 }
 
 double PairCDEM::single(int i, int j, int, int, double, double, double, double &fforce) {

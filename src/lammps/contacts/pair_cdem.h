@@ -90,7 +90,7 @@ private:
   void check_periods() const;
   void find_largest_radii();
   Scene scene() const;
-  void tally();
+  void tally(int k, const cdem::PairForce &);
 
   LawChoice law;
   std::vector<double> largest_radius; // by type

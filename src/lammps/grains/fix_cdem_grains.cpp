@@ -160,14 +160,6 @@ std::uint64_t FixCDEMGrains::fingerprint_of_rules() const {
   return Shearbox::Fingerprint().add(rules).add(period.x).add(period.y).add(period.tilt).value();
 }
 
-void FixCDEMGrains::set_inverses() {
-  inverses.resize(atom->nlocal);
-  for (int i = 0; i < atom->nlocal; i++) {
-    const double m = atom->rmass[i], r = atom->radius[i];
-    inverses[i] = is_free(i) ? Inverse{1 / m, 1 / (m * r * r * inertias[atom->type[i]])} : Inverse{0, 0};
-  }
-}
-
 cdem::StepRule FixCDEMGrains::step_rule() const {
   return {update->dt, 0.5 * update->dt * weight, gravity[0], gravity[1], drag};
 }

@@ -58,8 +58,8 @@ public:
     state[i][ALPHA] = a.turn;
   }
   Acceleration acceleration_by_forces(int i) const {
-    return {inverses[i].mass * atom->f[i][0], inverses[i].mass * atom->f[i][1],
-            inverses[i].inertia * atom->torque[i][2]};
+    const Inverse of = inverse(i);
+    return {of.mass * atom->f[i][0], of.mass * atom->f[i][1], of.inertia * atom->torque[i][2]};
   }
 
   // --- the forces of the last step, and the scene to which they belong ---
@@ -76,12 +76,14 @@ public:
   void restore_forces() const;
 
   // --- mass and inertia ---
-  // 1/m (1/kg) and 1/I (1/(kg m^2)) of an own atom, 0 for walls: divisions that are done once for many steps.
+  // 1/m (1/kg) and 1/I (1/(kg m^2)) of an own atom, 0 for walls.
   struct Inverse {
     double mass, inertia;
   };
-  const Inverse &inverse(int i) const { return inverses[i]; }
-  void set_inverses();
+  Inverse inverse(int i) const {
+    const double m = atom->rmass[i], r = atom->radius[i];
+    return is_free(i) ? Inverse{1 / m, 1 / (m * r * r * inertias[atom->type[i]])} : Inverse{0, 0};
+  }
   // Moment of inertia of a grain of this type over m r^2, r the circumscribed radius.
   double inertia(int type) const { return inertias[type]; }
   void set_inertias(const std::vector<double> &by_type) { inertias = by_type; }
@@ -138,7 +140,6 @@ private:
 
   double **state = nullptr; // NCOLUMNS per atom
   Fix *mover = nullptr;
-  std::vector<Inverse> inverses;
   std::vector<double> inertias; // by type
   std::uint64_t rules = 0;
   bool scene_is_new = false; // a step has been made since it was kept

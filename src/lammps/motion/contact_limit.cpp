@@ -19,6 +19,7 @@ namespace {
 struct Packing {
   const DiscPairList &contacts;
   const FixCDEMGrains &grains;
+  const cdem::PairsOfDiscs of_discs;
   int nlocal;
 
   int own() const { return nlocal; }
@@ -29,7 +30,7 @@ struct Packing {
     const GrainRows &rows = contacts.rows;
     const cdem::Disc<double> &centre = rows.of_grain(i);
     for (int own = rows.rows_of(i); own < rows.rows_of(i + 1); own++)
-      contacts.slots.for_each(own, [&](int k) {
+      of_discs.for_each(own, [&](int k) {
         if (contacts.overlap(k) <= 0)
           return;
         const int other = contacts.pairs.a(k) == own ? contacts.pairs.b(k) : contacts.pairs.a(k);
@@ -52,8 +53,8 @@ double ContactLimit::find(double guess, double enough) {
     MPI_Allreduce(&x, &most, 1, MPI_DOUBLE, MPI_MAX, world);
     return most;
   };
-  const Packing packing{PairCDEM::needed_by("Fix cdem/integrate", lmp)->contacts, *FixCDEMGrains::find(lmp),
-                        atom->nlocal};
+  const DiscPairList &contacts = PairCDEM::needed_by("Fix cdem/integrate", lmp)->contacts;
+  const Packing packing{contacts, *FixCDEMGrains::find(lmp), contacts.slots.by_disc(contacts.pairs), atom->nlocal};
   return cdem::ContactNetwork(packing).step_limit(guess, enough, weights, to_ghosts, largest);
 }
 

@@ -228,10 +228,7 @@ void FixCDEMIntegrate::take_accelerations() {
 }
 
 // Grains may have come.
-void FixCDEMIntegrate::post_neighbor() {
-  grains->set_inverses();
-  settle_angles();
-}
+void FixCDEMIntegrate::post_neighbor() { settle_angles(); }
 
 void FixCDEMIntegrate::settle_angles() {
   const FixCDEMShape *const shape = FixCDEMShape::find(lmp);
