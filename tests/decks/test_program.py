@@ -4,6 +4,7 @@
 import ctypes
 import os
 import re
+import struct
 import subprocess
 import sys
 from datetime import datetime
@@ -51,7 +52,7 @@ pair_coeff * * 1e6 1e6 0.1 0.1 30
 
 
 def run(
-    cwd: Path, deck: str | None, ranks: int = 1, *options: str, file: str = "in.test"
+    cwd: Path, deck: str | None, ranks: int = 1, *options: str, file: str = "in.test", **environment: str
 ) -> subprocess.CompletedProcess[str]:
     """Run a deck (None: the file is there already, or is not to be); a deadlock shows as a time-out."""
     if deck is not None:
@@ -60,7 +61,13 @@ def run(
     if ranks > 1:
         command = ["mpirun", "--oversubscribe", "-np", str(ranks), *command]
     return subprocess.run(
-        command, cwd=cwd, env=ENVIRONMENT, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60
+        command,
+        cwd=cwd,
+        env=ENVIRONMENT | environment,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=60,
     )
 
 
@@ -109,6 +116,27 @@ def test_parts_of_a_deck_are_found_beside_it(tmp_path: Path, folder: str) -> Non
         assert f"include cannot read from folder '../{folder}'" in done.stdout
     else:
         assert "here" in done.stdout.splitlines()
+
+
+def as_if_linked_symbolic(library: bytes) -> bytes:
+    """An ELF file whose own symbols go first, as with -Bsymbolic: DT_SYMBOLIC in a spare entry of its dynamic section."""
+    phoff, phentsize, phnum = (*struct.unpack_from("<Q", library, 32), *struct.unpack_from("<HH", library, 54))
+    headers = [struct.unpack_from("<IIQQQQ", library, phoff + i * phentsize) for i in range(phnum)]
+    start, size = next((offset, size) for type_, _, offset, _, _, size in headers if type_ == 2)  # PT_DYNAMIC
+    entries = range(start, start + size, 16)
+    end = next(at for at in entries if library[at : at + 8] == bytes(8))  # DT_NULL
+    assert end + 16 in entries, "there is no spare entry"
+    return library[:end] + struct.pack("<QQ", 16, 0) + library[end + 16 :]
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_a_library_that_takes_no_styles_is_named(tmp_path: Path, ranks: int) -> None:
+    loads = subprocess.run(["ldd", PROGRAM], capture_output=True, text=True, check=True).stdout
+    library = Path(re.findall(r"(\S*liblammps\S*) \(", loads)[0])
+    (tmp_path / library.name).write_bytes(as_if_linked_symbolic(library.read_bytes()))
+    done = run(tmp_path, SCENE, ranks, LD_LIBRARY_PATH=str(tmp_path))
+    assert done.returncode != 0
+    assert "ERROR: The styles of Shearbox are not there: this LAMMPS library calls its own" in done.stdout
 
 
 def test_error_in_one_partition_ends_the_others(tmp_path: Path) -> None:
