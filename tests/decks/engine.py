@@ -105,7 +105,7 @@ class Run:
     def thermo(self) -> Table:
         """The thermo output of the last run command."""
         lines = self.log.splitlines()
-        first = max(i for i, line in enumerate(lines) if line.startswith("Step"))
+        first = max(i for i, line in enumerate(lines) if line.split()[:1] == ["Step"])
         last = next(i for i in range(first, len(lines)) if lines[i].startswith("Loop time"))
         rows = [[float(word) for word in line.split()] for line in lines[first + 1 : last] if is_numbers(line)]
         return dict(zip(lines[first].split(), np.array(rows).T, strict=True))

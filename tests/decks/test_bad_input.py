@@ -13,6 +13,9 @@ from pathlib import Path
 import pytest
 from engine import start
 
+# Newer versions do not let a number pass that is too large for double.
+OR_LAMMPS_ITSELF = "|number 1e999 .* is out of range"
+
 GOOD = """
 units         si
 dimension     2
@@ -57,7 +60,7 @@ CASES: dict[str, tuple[str, str, str]] = {
     "rolling with another addition for a value": ("0.215 27", "0.215 27 rolling 0.3 cohesion 1", r"'cohesion'"),
     "rolling negative": ("0.215 27", "0.215 27 rolling -0.3 0.1", r"Pair coeff cdem: mu_r = -0.3 must be a number, not negative"),
     "rolling with a negative damping ratio": ("0.215 27", "0.215 27 rolling 0.3 -0.1", r"Pair coeff cdem: h_r = -0.1"),
-    "rolling infinite": ("0.215 27", "0.215 27 rolling 1e999 0.1", r"Pair coeff cdem: mu_r = 1e999"),
+    "rolling infinite": ("0.215 27", "0.215 27 rolling 1e999 0.1", r"Pair coeff cdem: mu_r = 1e999" + OR_LAMMPS_ITSELF),
     "rolling twice": ("0.215 27", "0.215 27 rolling 0.3 0.1 cohesion 1 rolling 0.2 0.1", r"Pair coeff cdem: rolling is given twice"),
     "cohesion without a value": ("0.215 27", "0.215 27 cohesion", r"Pair coeff cdem: cohesion: F_c \(N\) is missing"),
     "cohesion negative": ("0.215 27", "0.215 27 cohesion -1", r"Pair coeff cdem: F_c = -1"),
@@ -65,7 +68,7 @@ CASES: dict[str, tuple[str, str, str]] = {
     "an addition that there is not": ("0.215 27", "0.215 27 capillary 1", r"Pair coeff cdem: capillary after kn ks hn hs phi"),
     "kn zero": ("* * 1e8", "* * 0", r"Pair coeff cdem: kn = 0"),
     "kn negative": ("* * 1e8", "* * -1e8", r"Pair coeff cdem: kn = -1e8"),
-    "kn infinite": ("* * 1e8", "* * 1e999", r"Pair coeff cdem: kn = 1e999"),
+    "kn infinite": ("* * 1e8", "* * 1e999", r"Pair coeff cdem: kn = 1e999" + OR_LAMMPS_ITSELF),
     "kn not a number": ("* * 1e8", "* * nan", r"'nan'"),
     "kn a word": ("* * 1e8", "* * stiff", r"'stiff'"),
     "ks negative": ("2.5e7", "-2.5e7", r"Pair coeff cdem: ks = -2.5e7"),
@@ -101,7 +104,7 @@ CASES: dict[str, tuple[str, str, str]] = {
     "inertia without a value": ("dt check", "inertia", r"Fix cdem/integrate: inertia has no value|inertia.*missing"),
     "inertia zero": ("dt check", "inertia 0", r"Fix cdem/integrate: inertia 0"),
     "inertia negative": ("dt check", "inertia -2", r"Fix cdem/integrate: inertia -2"),
-    "inertia infinite": ("dt check", "inertia 1e999", r"Fix cdem/integrate: inertia inf"),
+    "inertia infinite": ("dt check", "inertia 1e999", r"Fix cdem/integrate: inertia inf" + OR_LAMMPS_ITSELF),
     "time step beyond the limit": ("timestep      2e-7", "timestep      2e-6", r"time step 2e-06 is beyond the stability limit [1-9]\.\d+e-07"),
     "time step zero": ("timestep      2e-7", "timestep      0", r"Fix cdem/integrate: the time step 0 must be positive"),
     "time step negative": ("timestep      2e-7", "timestep      -2e-7", r"Fix cdem/integrate: the time step -2e-07 must be positive"),
@@ -116,8 +119,8 @@ CASES: dict[str, tuple[str, str, str]] = {
     "lid without grains": ("group         lid type 3", "group lid id 999", r"Fix cdem/lid lid: group lid has no atoms"),
     "lid without stress": ("stress 1e5", "", r"Fix cdem/lid lid: stress .*missing"),
     "lid with negative stress": ("stress 1e5", "stress -1e5", r"Fix cdem/lid lid: stress -100000"),
-    "lid with infinite stress": ("stress 1e5", "stress 1e999", r"Fix cdem/lid lid: stress inf"),
-    "lid with infinite width": ("width 0.02", "width 1e999", r"Fix cdem/lid lid: width inf"),
+    "lid with infinite stress": ("stress 1e5", "stress 1e999", r"Fix cdem/lid lid: stress inf" + OR_LAMMPS_ITSELF),
+    "lid with infinite width": ("width 0.02", "width 1e999", r"Fix cdem/lid lid: width inf" + OR_LAMMPS_ITSELF),
     "lid with width zero": ("width 0.02", "width 0", r"Fix cdem/lid lid: width 0"),
     "lid without width": ("width 0.02", "", r"Fix cdem/lid lid: width"),
     "lid with negative thickness": ("thickness 0.01", "thickness -0.01", r"Fix cdem/lid lid: thickness -0.01"),
@@ -130,10 +133,10 @@ CASES: dict[str, tuple[str, str, str]] = {
     "lid with a variable that turns negative": ("stress 1e5", "stress v_sigma", r"Fix cdem/lid lid: variable sigma is -1\b.* at step 11"),
     # prescribed motion
     "wall without speed": ("speed 0.002", "", r"Fix cdem/move floor: speed .*missing"),
-    "wall with an infinite speed": ("speed 0.002", "speed 1e999", r"Fix cdem/move floor: speed inf"),
+    "wall with an infinite speed": ("speed 0.002", "speed 1e999", r"Fix cdem/move floor: speed inf" + OR_LAMMPS_ITSELF),
     "wall with an unknown direction": ("dir x", "dir z", r"Fix cdem/move floor: dir z"),
     "wall with a negative ramp": ("ramp 1e-4", "ramp -1e-4", r"Fix cdem/move floor: ramp -0.0001"),
-    "wall with an infinite ramp": ("ramp 1e-4", "ramp 1e999", r"Fix cdem/move floor: ramp inf"),
+    "wall with an infinite ramp": ("ramp 1e-4", "ramp 1e999", r"Fix cdem/move floor: ramp inf" + OR_LAMMPS_ITSELF),
     "wall with stop zero": ("stop 0.008", "stop 0", r"Fix cdem/move floor: stop 0"),
     "wall with an unknown keyword": ("dir x", "along x", r"Fix cdem/move floor: unknown keyword along"),
     "wall with a speed that is a word": ("speed 0.002", "speed fast", r"speed is fast, must be a number"),
@@ -186,7 +189,9 @@ ON_TWO_RANKS = {
 def check(deck: str, directory: Path, message: str, ranks: int) -> None:
     """LAMMPS names the value in the ERROR line or, for its own commands, by the command itself."""
     status, output = start(deck, directory, ranks=ranks)
-    errors = "\n".join(line for line in output.splitlines() if "ERROR" in line or line.startswith("Last command"))
+    errors = "\n".join(
+        line for line in output.splitlines() if "ERROR" in line or re.match("Last (command|input line)", line)
+    )
     assert status != 0, f"no failure\n{output[-2000:]}"
     assert re.search(message, errors), f"'{message}' is not in\n{errors or output[-2000:]}"
 

@@ -4,6 +4,7 @@ is at rest stays there. The box is that of mini_box.in; wall types 2 sides, 3 li
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -100,11 +101,8 @@ def test_shear_to_and_fro(tmp_path: Path, law: str) -> None:
 
 def tables_of(out: Run) -> list[Table]:
     """The thermo output of every run."""
-    tables, rest = [], out.log
-    while "\nStep" in rest:
-        part, _, rest = rest[rest.index("\nStep") :].partition("\nLoop time")
-        tables.append(Run(out.directory, part.lstrip() + "\nLoop time").thermo)
-    return tables
+    parts = re.findall(r"^ *Step .*?^Loop time", out.log, re.DOTALL | re.MULTILINE)
+    return [Run(out.directory, part).thermo for part in parts]
 
 
 def test_a_knock(tmp_path: Path, law: str) -> None:

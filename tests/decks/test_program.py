@@ -3,8 +3,11 @@
 
 import ctypes
 import os
+import re
+import struct
 import subprocess
 import sys
+from datetime import datetime
 from pathlib import Path
 
 import pytest
@@ -49,7 +52,7 @@ pair_coeff * * 1e6 1e6 0.1 0.1 30
 
 
 def run(
-    cwd: Path, deck: str | None, ranks: int = 1, *options: str, file: str = "in.test"
+    cwd: Path, deck: str | None, ranks: int = 1, *options: str, file: str = "in.test", **environment: str
 ) -> subprocess.CompletedProcess[str]:
     """Run a deck (None: the file is there already, or is not to be); a deadlock shows as a time-out."""
     if deck is not None:
@@ -58,7 +61,13 @@ def run(
     if ranks > 1:
         command = ["mpirun", "--oversubscribe", "-np", str(ranks), *command]
     return subprocess.run(
-        command, cwd=cwd, env=ENVIRONMENT, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60
+        command,
+        cwd=cwd,
+        env=ENVIRONMENT | environment,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=60,
     )
 
 
@@ -109,6 +118,27 @@ def test_parts_of_a_deck_are_found_beside_it(tmp_path: Path, folder: str) -> Non
         assert "here" in done.stdout.splitlines()
 
 
+def as_if_linked_symbolic(library: bytes) -> bytes:
+    """An ELF file whose own symbols go first, as with -Bsymbolic: DT_SYMBOLIC in a spare entry of its dynamic section."""
+    phoff, phentsize, phnum = (*struct.unpack_from("<Q", library, 32), *struct.unpack_from("<HH", library, 54))
+    headers = [struct.unpack_from("<IIQQQQ", library, phoff + i * phentsize) for i in range(phnum)]
+    start, size = next((offset, size) for type_, _, offset, _, _, size in headers if type_ == 2)  # PT_DYNAMIC
+    entries = range(start, start + size, 16)
+    end = next(at for at in entries if library[at : at + 8] == bytes(8))  # DT_NULL
+    assert end + 16 in entries, "there is no spare entry"
+    return library[:end] + struct.pack("<QQ", 16, 0) + library[end + 16 :]
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_a_library_that_takes_no_styles_is_named(tmp_path: Path, ranks: int) -> None:
+    loads = subprocess.run(["ldd", PROGRAM], capture_output=True, text=True, check=True).stdout
+    library = Path(re.findall(r"(\S*liblammps\S*) \(", loads)[0])
+    (tmp_path / library.name).write_bytes(as_if_linked_symbolic(library.read_bytes()))
+    done = run(tmp_path, SCENE, ranks, LD_LIBRARY_PATH=str(tmp_path))
+    assert done.returncode != 0
+    assert "ERROR: The styles of Shearbox are not there: this LAMMPS library calls its own" in done.stdout
+
+
 def test_error_in_one_partition_ends_the_others(tmp_path: Path) -> None:
     (tmp_path / "in.0").write_text("pair_style nonsense")
     (tmp_path / "in.1").write_text("shell sleep 100")
@@ -125,9 +155,12 @@ def plugin_styles() -> None:
             ("handle", ctypes.c_void_p),
         ]
 
+    def number_of(version: str) -> int:  # "29 Sep 2021" -> 20210929
+        return int(datetime.strptime(version, "%d %b %Y").strftime("%Y%m%d"))
+
     def register(plugin: "ctypes._Pointer[Plugin]", _lmp: int) -> None:
         style = plugin.contents
-        assert style.creator and style.version == b"29 Sep 2021"
+        assert style.creator and number_of(style.version.decode()) == lammps.lammps_version(lmp)
         print(style.style.decode(), style.name.decode())
 
     ctypes.CDLL("libmpi.so.40", mode=ctypes.RTLD_GLOBAL)
@@ -156,12 +189,12 @@ def test_plugin_registers_every_style() -> None:
 
 def test_plugin_refuses_another_lammps(tmp_path: Path) -> None:
     source = tmp_path / "other.c"
-    source.write_text("int lammps_version(void *lmp) { return 20250204; }\n")
+    source.write_text("int lammps_version(void *lmp) { return 20000101; }\n")
     other = tmp_path / "other.so"
     subprocess.run(["gcc", "-shared", "-fPIC", "-w", str(source), "-o", str(other)], check=True)
     done = load_plugin(LD_PRELOAD=str(other))
     assert done.stdout == ""
-    assert "compiled for LAMMPS 20210929, but this is LAMMPS 20250204" in done.stderr
+    assert re.search(r"compiled for LAMMPS 20\d{6}, but this is LAMMPS 20000101", done.stderr)
 
 
 if __name__ == "__main__":

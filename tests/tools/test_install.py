@@ -53,6 +53,17 @@ def test_a_short_run(prefix: Path, tmp_path: Path) -> None:
     assert (tmp_path / "results" / "report.html").stat().st_size > 100_000
 
 
+def test_another_size_of_ids_is_refused(tmp_path: Path) -> None:
+    """What configures for the sizes of the library does not for the others."""
+    cache = dict(re.findall(r"^(LAMMPS_\w+):\w+=(.*)$", (ROOT / "build" / "CMakeCache.txt").read_text(), re.MULTILINE))
+    other = {"SMALLBIG": "BIGBIG", "BIGBIG": "SMALLBIG"}[cache["LAMMPS_SIZES"]]
+    configure: list[str | Path] = ["cmake", "-S", ROOT, "-B", tmp_path, "-DSHEARBOX_TESTS=OFF"]
+    configure += [f"-D{name}={value}" for name, value in (cache | {"LAMMPS_SIZES": other}).items()]
+    refused = subprocess.run(configure, capture_output=True, text=True, timeout=60)
+    assert refused.returncode != 0
+    assert f"give -DLAMMPS_SIZES={cache['LAMMPS_SIZES']}" in " ".join(refused.stderr.split())
+
+
 def test_engine(prefix: Path, tmp_path: Path) -> None:
     (tmp_path / "deck.in").write_text("dimension 2\natom_style sphere\npair_style none\ninfo styles pair\n")
     said = start(prefix / "bin" / "lmp_cdem", "-in", "deck.in", cwd=tmp_path)

@@ -267,7 +267,7 @@ REFUSED = [
 def test_bad_options_are_refused_before_anything_starts(folder, options, message):
     refused = shearbox(folder, *options)
     assert refused.returncode == 2, refused.stdout
-    assert message in refused.stderr
+    assert message.replace("'", "") in refused.stderr.replace("'", "")  # argparse of Python 3.13 quotes less
     assert "Traceback" not in refused.stderr
     assert not folder.exists()
 

@@ -123,7 +123,7 @@ def _last_error(path: Path) -> str | None:
     if not found:
         return None
     at = found[-1]
-    last = [line for line in lines[at + 1 : at + 2] if line.startswith("Last command")]
+    last = [line for line in lines[at + 1 : at + 2] if line.startswith(("Last command", "Last input line"))]
     return "\n  ".join(line.strip() for line in [lines[at], *last])
 
 

@@ -7,6 +7,7 @@
 
 #include "core/declaration.h"
 #include "core/rules.h"
+#include "host/compat.h"
 #include "host/glides.h"
 
 #include "fix.h"
@@ -19,7 +20,7 @@ namespace LAMMPS_NS {
 // The list that has the contacts and their histories between rebuilds.
 class ContactList {
 public:
-  virtual ~ContactList() = default;
+  virtual ~ContactList() noexcept(Shearbox::DESTRUCTORS_THROW_NOTHING) {}
   // Copies the histories to the grains, by make_room() and add().
   virtual void copy_history_to_grains() = 0;
   // The same; from then on the grains have the histories, not the list.

@@ -21,7 +21,10 @@ namespace {
 constexpr int VERSION = 1; // of the text in restart files
 
 std::string joined(const std::vector<std::string> &words, const char *between) {
-  return fmt::format("{}", fmt::join(words, between));
+  std::string all;
+  for (const std::string &word : words)
+    all += (all.empty() ? "" : between) + word;
+  return all;
 }
 
 // Names of all parameters, in the order of Coefficients::given: those of the contact law itself by name, others as

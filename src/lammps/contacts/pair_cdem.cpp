@@ -94,7 +94,7 @@ void PairCDEM::check_setting() const {
                update->unit_style);
   if (force->newton_pair)
     error->all(FLERR, "Pair style cdem: newton is on, must be off ('newton off' before the box is made)");
-  if (!atom->sphere_flag)
+  if (!Shearbox::is_sphere(atom))
     error->all(FLERR, "Pair style cdem needs atom_style sphere");
   // LAMMPS unsets comm_x_only if radii can change.
   if (strcmp(atom->atom_style, "sphere") == 0 && !atom->avec->comm_x_only)

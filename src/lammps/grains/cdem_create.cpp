@@ -3,6 +3,7 @@
 
 #include "core/fill.h"
 #include "grains/fix_cdem_shape.h"
+#include "host/compat.h"
 
 #include "atom.h"
 #include "atom_vec.h"
@@ -23,7 +24,7 @@ void CDEMCreate::command(int narg, char **arg) {
     error->all(FLERR, "cdem/create: there is no simulation box yet");
   if (domain->dimension != 2)
     error->all(FLERR, "cdem/create: dimension is {}, must be 2", domain->dimension);
-  if (!atom->sphere_flag)
+  if (!Shearbox::is_sphere(atom))
     error->all(FLERR, "cdem/create needs atom_style sphere");
   if (!atom->tag_enable)
     error->all(FLERR, "cdem/create needs atom ids");

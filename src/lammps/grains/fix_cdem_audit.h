@@ -4,6 +4,7 @@
 // friction and dashpots, fix cdem/integrate that of drag, fixes cdem/lid and cdem/move the work of their walls.
 #pragma once
 
+#include "host/compat.h"
 #include "host/glides.h"
 
 #include "fix.h"
@@ -16,7 +17,7 @@ public:
   // add their losses to the books.
   class Opener {
   public:
-    virtual ~Opener() = default;
+    virtual ~Opener() noexcept(Shearbox::DESTRUCTORS_THROW_NOTHING) {}
     virtual void open_books() = 0; // does nothing if they are open
     virtual void book_losses() = 0;
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "grains/fix_cdem_grains.h"
 
+#include "host/compat.h"
 #include "host/find_fix.h"
 #include "host/fingerprint.h"
 #include "host/packed_state.h"
@@ -62,7 +63,7 @@ void FixCDEMGrains::set_shapes(bool yes) {
 
 // If no other fix acts on them, LAMMPS has them still when they are to be kept.
 void FixCDEMGrains::forces_are_there() {
-  if (modify->n_post_force)
+  if (Shearbox::fixes_after_forces(modify))
     keep_forces();
 }
 
@@ -87,7 +88,7 @@ void FixCDEMGrains::keep_scene() {
   if (!scene_is_new)
     return;
   scene_is_new = false;
-  if (!modify->n_post_force)
+  if (!Shearbox::fixes_after_forces(modify))
     keep_forces();
   for (int i = 0; i < atom->nlocal; i++) {
     state[i][X] = atom->x[i][0];

@@ -4,6 +4,7 @@
 // What differs between LAMMPS versions, and nothing else: the only file that asks for the version.
 // LAMMPS_VERSION_NUMBER (20210929 for 29Sep2021) comes from the build, which reads it in LAMMPS's version.h.
 
+#include "atom.h"
 #include "comm.h"
 #include "fix.h"
 #include "input.h"
@@ -12,9 +13,11 @@
 #include "neigh_request.h"
 #include "neighbor.h"
 #include "pair.h"
+#include "pointers.h"
 
 #include <cstring>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #define SHEARBOX_LAMMPS_2022 (LAMMPS_VERSION_NUMBER >= 20220623) // the first stable version with the new interfaces
@@ -22,6 +25,10 @@
 namespace Shearbox {
 
 using namespace LAMMPS_NS;
+
+// Those of LAMMPS's classes may throw in newer versions. An interface that a style has beside its class of LAMMPS must
+// say the same.
+inline constexpr bool DESTRUCTORS_THROW_NOTHING = std::is_nothrow_destructible_v<Pointers>;
 
 // A list that has each pair once (with newton off: once on each of the two ranks of its atoms) and takes its cutoff
 // from the radii. `instance` is the style's instance_me.
@@ -49,6 +56,19 @@ inline void forward_comm(LAMMPS *lmp, Pair *pair) {
 #else
   lmp->comm->forward_comm_pair(pair);
 #endif
+}
+
+// Whether atoms have what atom_style sphere gives them. 4Jul2026 has no Atom::sphere_flag any more.
+inline bool is_sphere(const Atom *atom) {
+  return atom->radius_flag && atom->rmass_flag && atom->omega_flag && atom->torque_flag;
+}
+
+// How many fixes act on forces after they are computed. Protected in newer versions.
+inline int fixes_after_forces(const Modify *all) {
+  struct Look : Modify {
+    using Modify::n_post_force;
+  };
+  return all->*&Look::n_post_force;
 }
 
 // Null if there is no such fix.

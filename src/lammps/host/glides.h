@@ -4,6 +4,8 @@
 // that acts within a step and has none of these interfaces prevents it: all steps are then those of run_style verlet.
 #pragma once
 
+#include "host/compat.h"
+
 namespace cdem {
 struct Travel;
 }
@@ -15,7 +17,7 @@ class GrainRows;
 // A fix that need not be called in glided steps.
 class Glides {
 public:
-  virtual ~Glides() = default;
+  virtual ~Glides() noexcept(Shearbox::DESTRUCTORS_THROW_NOTHING) {}
   // Whether it must be called in every step of this run nevertheless: then nothing glides.
   virtual bool needs_every_step() const { return false; }
 };

@@ -4,6 +4,7 @@
 #include "contacts/pair_cdem.h"
 #include "grains/fix_cdem_audit.h"
 #include "grains/fix_cdem_shape.h"
+#include "host/compat.h"
 #include "host/deck_words.h"
 #include "host/find_fix.h"
 #include "host/fingerprint.h"
@@ -38,7 +39,7 @@ FixCDEMIntegrate::FixCDEMIntegrate(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg), guard(lmp), step(lmp, this) {
   if (domain->dimension != 2)
     error->all(FLERR, "Fix cdem/integrate: dimension is {}, must be 2", domain->dimension);
-  if (!atom->sphere_flag)
+  if (!Shearbox::is_sphere(atom))
     error->all(FLERR, "Fix cdem/integrate needs atom_style sphere");
   if (find(lmp))
     error->all(FLERR, "Fix cdem/integrate {}: there is one already, {}", id, find(lmp)->id);
@@ -60,6 +61,7 @@ FixCDEMIntegrate::FixCDEMIntegrate(LAMMPS *lmp, int narg, char **arg)
 
   time_integrate = 1;
   scalar_flag = 1;
+  extscalar = 0;
   peratom_flag = 1;
   size_peratom_cols = FixCDEMGrains::NCOLUMNS; // all: atom-style variables take it for the distance of two rows
   peratom_freq = 1;

@@ -3,6 +3,7 @@
 
 #include "grains/fix_cdem_audit.h"
 #include "grains/fix_cdem_grains.h"
+#include "host/compat.h"
 #include "host/rank_sum.h"
 
 #include "atom.h"
@@ -22,7 +23,7 @@ using namespace LAMMPS_NS;
 WallBody::WallBody(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) {
   if (domain->dimension != 2)
     error->all(FLERR, "Fix {} {}: dimension is {}, must be 2", style, id, domain->dimension);
-  if (!atom->sphere_flag)
+  if (!Shearbox::is_sphere(atom))
     error->all(FLERR, "Fix {} {} needs atom_style sphere", style, id);
   time_integrate = 1;
   vector_flag = 1;

@@ -27,7 +27,7 @@ ComputeCDEMEnergy::ComputeCDEMEnergy(LAMMPS *lmp, int narg, char **arg) : Comput
       error->all(FLERR, "Compute cdem/energy {}: audit {}: must be yes or no", id, value);
     audits = value == "yes";
   }
-  if (!atom->sphere_flag)
+  if (!Shearbox::is_sphere(atom))
     error->all(FLERR, "Compute cdem/energy {} needs atom_style sphere", id);
   if (audits) {
     if (FixCDEMAudit::find(lmp))

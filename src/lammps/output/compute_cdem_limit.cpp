@@ -16,6 +16,7 @@ ComputeCDEMLimit::ComputeCDEMLimit(LAMMPS *lmp, int narg, char **arg) : Compute(
   if (igroup != 0)
     error->all(FLERR, "Compute cdem/limit {}: the group must be all", id);
   scalar_flag = 1;
+  extscalar = 0;
 }
 
 void ComputeCDEMLimit::init() { PairCDEM::needed_by("Compute cdem/limit", lmp); }

@@ -18,9 +18,10 @@ ComputeCDEMTRM::ComputeCDEMTRM(LAMMPS *lmp, int narg, char **arg)
     : Compute(lmp, narg, arg), fix_id(std::string("CDEM_TRM_") + arg[0]) {
   if (narg != 3)
     error->all(FLERR, "Compute cdem/trm {}: unknown argument {}; it takes none", id, arg[3]);
-  if (!atom->sphere_flag)
+  if (!Shearbox::is_sphere(atom))
     error->all(FLERR, "Compute cdem/trm {} needs atom_style sphere", id);
   scalar_flag = 1;
+  extscalar = 0;
   peratom_flag = 1;
   size_peratom_cols = 0;
   modify->add_fix(fix_id + " " + group->names[igroup] + " cdem/trm");

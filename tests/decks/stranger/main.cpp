@@ -21,7 +21,7 @@ namespace {
 
 class Counter : public Fix {
 public:
-  Counter(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) { scalar_flag = global_freq = 1; }
+  Counter(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) { scalar_flag = global_freq = extscalar = 1; }
   int setmask() override { return FixConst::POST_FORCE; }
   void post_force(int) override { calls++; }
   double compute_scalar() override { return calls; }
