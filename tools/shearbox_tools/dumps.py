@@ -40,8 +40,8 @@ class _Head:
 class Dump:
     """A dump, of which the given columns are read, by their names.
 
-    LAMMPS 29Sep2021 gives a column no name but that of what it is taken from: v_angle is the variable angle, c_discs[3]
-    the third of the names in the file discs.columns, which the deck writes beside the dump.
+    A column has the name of what it is taken from: v_angle is the variable angle. In dumps of an earlier version, c_discs[3]
+    is the third of the names in the file discs.columns beside the dump.
 
     After an interruption some frames are written again: the last frame of a step counts. A last frame that is not
     whole is what an engine that was stopped leaves behind, and is left out; anywhere else it is an error.

@@ -33,17 +33,8 @@ DISCS_DUMP = "discs.dump"
 CONTACTS_DUMP = "contacts.dump"
 CELLS_DUMP = "cells.dump"
 DUMPS = (GRAINS_DUMP, DISCS_DUMP, CONTACTS_DUMP, CELLS_DUMP)
-COLUMNS = ".columns"  # ending of the file beside a dump that names its columns
-# of what pictures are made
-PICTURED = (
-    GRAINS_DUMP,
-    DISCS_DUMP,
-    CONTACTS_DUMP,
-    "discs" + COLUMNS,
-    "contacts" + COLUMNS,
-)
-MAPPED = (CELLS_DUMP, "cells" + COLUMNS)  # of what maps of fields are made, beside the grains
-FRAMES = (*PICTURED, *MAPPED)
+PICTURED = (GRAINS_DUMP, DISCS_DUMP, CONTACTS_DUMP)  # of what pictures are made
+COLUMNS = ".columns"  # ending of the file beside a dump of an earlier version that names its columns
 
 
 def stress_folder(folder: Path, sigma: float) -> Path:
