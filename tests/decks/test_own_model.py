@@ -27,6 +27,7 @@ from shearbox_tools.grains import area_over_largest  # noqa: E402
 from shearbox_tools.models import read_model  # noqa: E402
 from shearbox_tools.readers import read_row, read_shear  # noqa: E402
 from shearbox_tools.specimen import Film, count_lost  # noqa: E402
+from shearbox_tools.tables import Tables  # noqa: E402
 
 D = 2e-3  # m, of the discs
 GRAINS, WIDTH, HALF_HEIGHT = 40, 0.03, 0.012
@@ -218,3 +219,24 @@ def test_the_time_of_a_frame_is_that_of_the_row_of_its_step(folder: Path) -> Non
     moved, passed = (np.diff(shear[name])[2:-1] for name in ("displacement_mm", "time_s"))
     np.testing.assert_allclose(moved, 20 * passed, rtol=1e-6)
     assert shear["time_s"] / shear["step"] == pytest.approx(shear["time_s"][-1] / shear["step"][-1], rel=1e-8)
+
+
+# --- what is exported -----------------------------------------------------------------------------
+
+
+def test_forces_times_branches_are_the_load_of_the_walls(folder: Path) -> None:
+    """Virial theorem: where the forces on each grain are in balance, the sum of forces times branches over all contacts is
+    that of the forces of walls times the points where they act, with its sign turned. Before shear they are in balance to
+    about 1e-4 of a force."""
+    tables = Tables(folder)
+    frame = tables.frame(tables.steps[0])
+    contacts = frame["contacts"]
+    assert len(frame["discs"]["id"]) == 5 * len(frame["grains"]["id"]) == 5 * GRAINS
+    walls = frame["walls"]["id"]
+    on_first, on_second = (np.isin(contacts[other], walls) for other in ("id2", "id1"))
+    sign: np.ndarray = on_first.astype(float) - on_second  # of the force of a wall on its grain
+    for force in ("fx", "fy"):
+        for axis in "xy":
+            inside = contacts[force] * contacts[f"branch_{axis}"]
+            by_walls = -np.sum(sign * contacts[force] * contacts[axis])
+            assert np.sum(inside) == pytest.approx(by_walls, abs=1e-3 * np.sum(np.abs(inside)))

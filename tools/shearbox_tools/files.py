@@ -3,7 +3,8 @@
 
 import json
 import os
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -67,6 +68,19 @@ def write_text(path: Path, text: str) -> None:
         with suppress(OSError):
             draft.unlink(missing_ok=True)
         raise ShearboxError(f"{path}: {error.strerror}") from error
+
+
+@contextmanager
+def drafted(path: Path) -> Iterator[Path]:
+    """A file to be written in its stead, which takes its place when it is whole."""
+    draft = path.with_name(path.name + DRAFT)
+    try:
+        yield draft
+        draft.replace(path)
+    except OSError as error:
+        raise ShearboxError(f"{path}: {error.strerror}") from error
+    finally:
+        draft.unlink(missing_ok=True)
 
 
 def write_json(path: Path, content: Any) -> None:
