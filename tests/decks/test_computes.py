@@ -270,23 +270,42 @@ def test_contacts_of_a_group_and_some_fields(tmp_path: Path) -> None:
 def test_discs_and_dumps(tmp_path: Path, ranks: int) -> None:
     """A row per disc, with the angle it has turned; and the dumps have the form that OVITO reads."""
     columns = "id type x y z vx vy omegaz radius f_move[4] c_trm"
-    deck = "compute discs all cdem/discs\n" + dump("local", "discs", 1000, "c_discs[*]")
-    deck += TRM + dump("custom", "grains", 1000, columns) + "run 1000\n"
+    deck = "compute discs all cdem/discs\n" + dump("cdem/local", "discs", 1000, "c_discs[*]")
+    deck += "dump_modify discs label ATOMS\n" + TRM + dump("custom", "grains", 1000, columns) + "run 1000\n"
     done = free(tmp_path, deck, ranks)
     grains, discs = done.dump("grains.dump")[-1], done.dump("discs.dump")[-1]
     table = np.array(sorted(zip(*discs.columns.values(), strict=True)))
-    expected = [grains[name] for name in ("id", "x", "y", "radius", "f_move[4]", "type")]
-    assert table[:, [0, 2, 3, 4, 5, 6]].tolist() == np.transpose(expected).tolist()
+    expected = [grains[name] for name in ("id", "x", "y", "radius", "f_move[4]", "type", "z")]
+    assert table[:, [0, 2, 3, 4, 5, 6, 7]].tolist() == np.transpose(expected).tolist()
     assert (table[:, 1] == 0).all()
     assert table[:, 5] == pytest.approx([0.1, -20, 0], rel=1e-12)  # omega t
     for name, what, names in [
         ("grains", "ATOMS", columns),
-        ("discs", "ENTRIES", " ".join(f"c_discs[{k}]" for k in range(1, 8))),
+        ("discs", "ATOMS", "id disc x y radius angle type z"),
     ]:
         head = (tmp_path / f"{name}.dump").read_text().splitlines()[:9]
         assert [head[0], head[2], head[3]] == ["ITEM: TIMESTEP", f"ITEM: NUMBER OF {what}", "3"]
         assert head[4] == "ITEM: BOX BOUNDS pp pp pp"
         assert head[8].split() == ["ITEM:", what, *names.split()]
+
+
+def test_local_dumps_with_names(tmp_path: Path, ranks: int) -> None:
+    """As dump local, in every digit; columns have their fields' names, if only one does, and no blank ends a row."""
+    deck = """
+    compute   discs all cdem/discs id x radius
+    compute   other all cdem/discs y x
+    compute   stock all property/local patom1
+    """
+    for style in ("local", "cdem/local"):
+        name = style.replace("/", "_")
+        deck += dump(style, name, 10, "c_discs[3] c_discs[*] c_other[*]") + dump(style, f"{name}_stock", 10, "c_stock")
+    free(tmp_path, deck + "run 10\nrun 10\n", ranks)
+    for kind, names in (("", "c_discs[3] id c_discs[2] c_discs[3] y c_other[2]"), ("_stock", "c_stock")):
+        plain, named = ((tmp_path / f"{style}{kind}.dump").read_text() for style in ("local", "cdem_local"))
+        heads = [line for line in named.splitlines() if line.startswith("ITEM: ENTRIES")]
+        assert heads == [f"ITEM: ENTRIES {names}"] * 3
+        rows = [[line for line in text.splitlines() if "ENTRIES" not in line] for text in (plain, named)]
+        assert [line.rstrip() for line in rows[0]] == rows[1]
 
 
 def test_fields_of_discs_in_the_order_they_are_asked_for(tmp_path: Path) -> None:
@@ -319,7 +338,7 @@ def test_a_spinning_clump(tmp_path: Path, ranks: int) -> None:
     for k, degrees in enumerate([210, 330, 90]):
         turned = math.radians(degrees) + omega * t
         x, y = (v[0] * t + (radius - r) * math.cos(turned), v[1] * t + (radius - r) * math.sin(turned))
-        expected.append([1, k, x, y, r, omega * t, 1])
+        expected.append([1, k, x, y, r, omega * t, 1, 0])
     assert table == pytest.approx(np.array(expected), rel=1e-11)
     spin = 11 / 6 * mass * r**2 * omega**2 / 2
     seen = {name: column[-1] for name, column in done.thermo.items()}

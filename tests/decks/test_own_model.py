@@ -15,11 +15,19 @@ INPUT = ROOT / "input"
 sys.path.insert(0, str(ROOT / "tools"))
 
 from shearbox_tools.dumps import Dump  # noqa: E402
-from shearbox_tools.files import CELLS_DUMP, DISCS_DUMP, GRAINS_DUMP, PACKED_TABLE, SHEAR_TABLE  # noqa: E402
+from shearbox_tools.files import (
+    CELLS_DUMP,
+    CONTACTS_DUMP,
+    DISCS_DUMP,
+    GRAINS_DUMP,
+    PACKED_TABLE,
+    SHEAR_TABLE,
+)  # noqa: E402
 from shearbox_tools.grains import area_over_largest  # noqa: E402
 from shearbox_tools.models import read_model  # noqa: E402
 from shearbox_tools.readers import read_row, read_shear  # noqa: E402
 from shearbox_tools.specimen import Film, count_lost  # noqa: E402
+from shearbox_tools.tables import Tables  # noqa: E402
 
 D = 2e-3  # m, of the discs
 GRAINS, WIDTH, HALF_HEIGHT = 40, 0.03, 0.012
@@ -146,3 +154,89 @@ def test_contacts_are_between_grains_that_touch(folder: Path) -> None:
                 centres = centres[:1] + along * (centres[1] - centres[0])
             reach = np.hypot(*(centres - [x, y]).T) - discs["radius"][mine][0]
             assert abs(reach.min()) < 0.01 * D
+
+
+# --- what other programs make of the dumps --------------------------------------------------------
+
+
+def last(folder: Path, dump: str, *columns: str) -> list[np.ndarray]:
+    """Columns of the last frame, as the tools read them."""
+    whole = Dump(folder / dump, columns)
+    frame = whole.frame(whole.steps[-1])
+    return [frame[name] for name in columns]
+
+
+def test_ase_reads_grains_and_discs(folder: Path) -> None:
+    """All frames and places; what ASE does not know by name, it drops, radii too."""
+    io = pytest.importorskip("ase.io")
+    for dump in (GRAINS_DUMP, DISCS_DUMP):
+        frames = io.read(folder / dump, index=":", format="lammps-dump-text")
+        ids, *places = last(folder, dump, "id", "x", "y")
+        assert len(frames) == 3
+        seen = frames[-1].positions  # in order of the ids; discs of one grain in any
+        for k, place in enumerate([*places, 0 * ids]):
+            np.testing.assert_allclose(np.sort(seen[:, k]), np.sort(place), atol=1e-12)
+    x, angle = last(folder, GRAINS_DUMP, "x", "angle")
+    atoms = io.read(folder / GRAINS_DUMP, index=-1, format="lammps-dump-text")
+    np.testing.assert_allclose(atoms.positions[:, 0], x, atol=1e-12)
+    np.testing.assert_allclose(atoms.arrays["v_angle"].ravel(), angle, rtol=1e-12)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_mdanalysis_reads_grains(folder: Path) -> None:
+    """All frames and places, in single precision, from the corner of the box."""
+    analysis = pytest.importorskip("MDAnalysis")
+    seen = analysis.Universe(str(folder / GRAINS_DUMP), format="LAMMPSDUMP", topology_format="LAMMPSDUMP")
+    assert len(seen.trajectory) == 3
+    seen.trajectory[-1]
+    x, y = last(folder, GRAINS_DUMP, "x", "y")
+    bounds = [line.split() for line in (folder / GRAINS_DUMP).read_text().splitlines()[5:8]]
+    corner = [float(low) for low, _ in bounds]
+    np.testing.assert_allclose(seen.atoms.positions + corner, np.transpose([x, y, 0 * x]), atol=1e-8)
+
+
+@pytest.mark.parametrize("separator", [" ", r"\s+"])
+@pytest.mark.parametrize("dump", [GRAINS_DUMP, DISCS_DUMP, CONTACTS_DUMP, CELLS_DUMP])
+def test_pandas_reads_every_dump(folder: Path, dump: str, separator: str) -> None:
+    """The first frame, by the names in its head: no column has moved aside."""
+    pandas = pytest.importorskip("pandas")
+    lines = (folder / dump).read_text().splitlines()
+    names = lines[8].split()[2:]
+    table = pandas.read_csv(
+        folder / dump, sep=separator, skiprows=9, nrows=int(lines[3]), names=names, float_precision="round_trip"
+    )
+    assert (table.index == range(len(table))).all() and table.notna().all(axis=None)
+    columns = tuple(name for name in names if not name.startswith(("v_", "c_")))
+    frame = Dump(folder / dump, columns).frame(0)
+    for name in columns:
+        assert (table[name] == frame[name]).all(), name
+
+
+def test_the_time_of_a_frame_is_that_of_the_row_of_its_step(folder: Path) -> None:
+    """The lower half moves at 20 mm/s, until it stops within the last interval."""
+    shear = read_shear(folder / SHEAR_TABLE)
+    assert set(Dump(folder / GRAINS_DUMP).steps) <= {0, *shear["step"]}
+    moved, passed = (np.diff(shear[name])[2:-1] for name in ("displacement_mm", "time_s"))
+    np.testing.assert_allclose(moved, 20 * passed, rtol=1e-6)
+    assert shear["time_s"] / shear["step"] == pytest.approx(shear["time_s"][-1] / shear["step"][-1], rel=1e-8)
+
+
+# --- what is exported -----------------------------------------------------------------------------
+
+
+def test_forces_times_branches_are_the_load_of_the_walls(folder: Path) -> None:
+    """Virial theorem: where the forces on each grain are in balance, the sum of forces times branches over all contacts is
+    that of the forces of walls times the points where they act, with its sign turned. Before shear they are in balance to
+    about 1e-4 of a force."""
+    tables = Tables(folder)
+    frame = tables.frame(tables.steps[0])
+    contacts = frame["contacts"]
+    assert len(frame["discs"]["id"]) == 5 * len(frame["grains"]["id"]) == 5 * GRAINS
+    walls = frame["walls"]["id"]
+    on_first, on_second = (np.isin(contacts[other], walls) for other in ("id2", "id1"))
+    sign: np.ndarray = on_first.astype(float) - on_second  # of the force of a wall on its grain
+    for force in ("fx", "fy"):
+        for axis in "xy":
+            inside = contacts[force] * contacts[f"branch_{axis}"]
+            by_walls = -np.sum(sign * contacts[force] * contacts[axis])
+            assert np.sum(inside) == pytest.approx(by_walls, abs=1e-3 * np.sum(np.abs(inside)))

@@ -35,6 +35,7 @@ STYLES = {
         "cdem/limit",
         "cdem/trm",
     },
+    "dump": {"cdem/local"},
     "command": {"cdem/create"},
     "run": {"verlet/cdem"},
 }
@@ -78,7 +79,7 @@ def test_styles_survive_clear(tmp_path: Path, ranks: int) -> None:
 
 
 def test_every_style_is_registered(tmp_path: Path) -> None:
-    done = run(tmp_path, "info styles pair styles fix styles compute styles command styles integrate")
+    done = run(tmp_path, "info styles pair styles fix styles compute styles dump styles command styles integrate")
     words = set(done.stdout.split())
     assert set.union(*STYLES.values()) - {"cdem"} <= words
     assert set.union(*STYLES.values()) <= words
@@ -171,6 +172,9 @@ def plugin_styles() -> None:
     lmp = ctypes.c_void_p(lammps.lammps_open_no_mpi(len(arguments), argv, None))
     plugin = ctypes.CDLL(str(PROGRAM.with_name("cdemplugin.so")))
     plugin.lammpsplugin_init(lmp, None, ctypes.CFUNCTYPE(None, ctypes.POINTER(Plugin), ctypes.c_void_p)(register))
+    for name in STYLES["dump"]:  # the loader has no dump styles: the plugin puts them into LAMMPS's table
+        if lammps.lammps_has_style(lmp, b"dump", name.encode()):
+            print("dump", name)
 
 
 def load_plugin(**environment: str) -> subprocess.CompletedProcess[str]:

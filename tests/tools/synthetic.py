@@ -12,6 +12,8 @@ from shearbox_tools.request import Request
 
 STEPS_PER_ROW = 5000
 GRAINS = 350
+DISCS = "id disc x y z radius angle type"
+CONTACTS = "id1 id2 disc1 disc2 x y fn ft fx fy nx ny overlap sliding"
 CELLS = "x y solid coordination stress_xx stress_yy stress_xy velocity_x velocity_y spin gradient_xx gradient_yy gradient_xy gradient_yx"
 
 
@@ -148,9 +150,9 @@ def write_frames(folder: Path, steps: list[int], travel: float, width: float = 0
         texts["grains"].append(
             _frame(
                 step,
-                "ATOMS id type x y vx vy omegaz radius v_angle c_trm v_wall v_lower v_lid",
+                "ATOMS id type x y z vx vy omegaz radius v_angle c_trm v_wall v_lower v_lid",
                 [
-                    f"{i + 1} {t} {x:.8g} {y:.8g} 0 0 0 {radius} {a:.6g} 0.7 {flags[i]}"
+                    f"{i + 1} {t} {x:.8g} {y:.8g} 0 0 0 0 {radius} {a:.6g} 0.7 {flags[i]}"
                     for i, (t, (x, y), a) in enumerate(rows)
                 ],
             )
@@ -158,32 +160,39 @@ def write_frames(folder: Path, steps: list[int], travel: float, width: float = 0
         texts["discs"].append(
             _frame(
                 step,
-                "ENTRIES " + " ".join(f"c_discs[{k}]" for k in range(1, 8)),
-                [f"{i + 1} 0 {x:.8g} {y:.8g} {radius} {a:.6g} {t}" for i, (t, (x, y), a) in enumerate(rows)],
+                f"ATOMS {DISCS}",
+                [f"{i + 1} 0 {x:.8g} {y:.8g} 0 {radius} {a:.6g} {t}" for i, (t, (x, y), a) in enumerate(rows)],
             )
         )
         texts["contacts"].append(
             _frame(
                 step,
-                "ENTRIES " + " ".join(f"c_contacts[{k}]" for k in range(1, 15)),
+                f"ENTRIES {CONTACTS}",
                 _contact_rows(centres, radius),
             )
         )
         texts["cells"].append(
             _frame(
                 step,
-                "ENTRIES " + " ".join(f"c_cells[{k}]" for k in range(1, 15)),
+                f"ENTRIES {CELLS}",
                 _cell_rows(width, half_height, travel),
             )
         )
-    (folder / "cells.columns").write_text(CELLS + "\n", encoding="utf-8")
-    (folder / "discs.columns").write_text("id disc x y radius angle type\n", encoding="utf-8")
-    (folder / "contacts.columns").write_text(
-        "id1 id2 disc1 disc2 x y fn ft fx fy nx ny overlap sliding\n", encoding="utf-8"
-    )
     for name, frames in texts.items():
         (folder / f"{name}.dump").write_text("".join(frames), encoding="utf-8")
     assert len(start) == GRAINS
+
+
+def with_names_beside(folder: Path) -> None:
+    """Turn dumps into those of an earlier version: numbers of columns in their heads, names in files beside them."""
+    for name, columns in (("discs", DISCS), ("contacts", CONTACTS), ("cells", CELLS)):
+        dump = folder / f"{name}.dump"
+        numbers = " ".join(f"c_{name}[{k}]" for k in range(1, len(columns.split()) + 1))
+        text = dump.read_text(encoding="utf-8")
+        for kind in ("ENTRIES", "ATOMS"):
+            text = text.replace(f"ITEM: {kind} {columns}", f"ITEM: ENTRIES {numbers}")
+        dump.write_text(text, encoding="utf-8")
+        dump.with_suffix(".columns").write_text(columns + "\n", encoding="utf-8")
 
 
 def _cell_rows(width: float, half_height: float, travel: float, count: int = 10) -> list[str]:

@@ -206,8 +206,6 @@ def test_shear(folder, data):
 def test_dump(folder, name, columns):
     @fuzz(made(frames(f"{name}.dump")))
     def look(data):
-        synthetic_names = {"discs": "id disc x y radius angle type", "contacts": "id1 id2 disc1 disc2 x y fn"}
-        written(folder / f"{name}.columns", synthetic_names.get(name, "").encode())
         path = written(folder / f"{name}.dump", data)
         try:
             dump = Dump(path, columns)
@@ -225,10 +223,16 @@ def test_dump(folder, name, columns):
     look()
 
 
-DISCS_DUMP = made(frames("discs.dump"))
+def discs_with_names_beside(folder: Path) -> Path:
+    path = frames("discs.dump")(folder)
+    synthetic.with_names_beside(folder)
+    return path
 
 
-@fuzz(b"id disc x y radius angle type\n")
+DISCS_DUMP = made(discs_with_names_beside)
+
+
+@fuzz(f"{synthetic.DISCS}\n".encode())
 def test_names_of_columns(folder, data):
     written(folder / "few.columns", data)
     written(folder / "few.dump", DISCS_DUMP)

@@ -40,8 +40,6 @@ def write_frames(folder: Path, last: int) -> None:
     for name in DUMPS:
         head = "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS id\n1\n"
         (folder / name).write_text("".join(head.format(step) for step in range(0, last + 1, FRAME)), encoding="utf-8")
-    for name in ("discs.columns", "contacts.columns", "cells.columns"):
-        (folder / name).write_text("id\n", encoding="utf-8")
 
 
 def write_rows(folder: Path, rows: int) -> None:

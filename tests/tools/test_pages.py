@@ -51,7 +51,14 @@ def test_every_style_is_in_the_table_of_the_readme() -> None:
     headers = "".join(text(path) for path in (SOURCE / "lammps").rglob("*.h"))
     made = set(re.findall(r"^// fix ([\w/]+): made by", headers, re.MULTILINE))
     assert len(made) == 4
-    kinds = {"pair": "pair_style ", "fix": "fix ", "compute": "compute ", "run": "run_style ", "command": ""}
+    kinds = {
+        "pair": "pair_style ",
+        "fix": "fix ",
+        "compute": "compute ",
+        "dump": "dump ",
+        "run": "run_style ",
+        "command": "",
+    }
     wanted = {kinds[kind] + name for kind, name in styles() if not (kind == "fix" and name in made)}
     assert len(wanted) >= 12
     assert wanted == set(re.findall(r"^\| \[([\w /]+)\]\(src/lammps/", text(ROOT / "README.md"), re.MULTILINE))

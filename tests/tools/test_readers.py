@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 import synthetic
 
-from shearbox_tools.dumps import CONTACTS, DISCS, GRAINS, Dump
+from shearbox_tools.dumps import CELLS, CONTACTS, DISCS, GRAINS, Dump
 from shearbox_tools.errors import ShearboxError
 from shearbox_tools.logs import read_log
 from shearbox_tools.readers import BED, last_value, read_row, read_shear
+
+EVERY = {"grains": GRAINS, "discs": DISCS, "contacts": CONTACTS, "cells": CELLS}
 
 
 @pytest.fixture(name="shear")
@@ -186,7 +188,8 @@ def test_columns_that_the_dump_has_in_another_order(frames, name, columns):
 
 
 def test_columns_that_the_compute_has_in_another_order(frames):
-    """As after a swap of the fields that the deck asks for: the file beside the dump says so."""
+    """As after a swap of the fields that the deck asks for, in dumps of before: the file beside the dump says so."""
+    synthetic.with_names_beside(frames)
     before = Dump(frames / "contacts.dump", CONTACTS).frame(0)
     names = frames / "contacts.columns"
     names.write_text("id2 id1 disc1 disc2 y x fn ft fx fy nx ny overlap sliding\n", encoding="utf-8")
@@ -195,8 +198,17 @@ def test_columns_that_the_compute_has_in_another_order(frames):
         assert np.array_equal(before[one], after[other]) and np.array_equal(before[other], after[one])
 
 
+def test_dumps_of_an_earlier_version(frames):
+    named = {name: Dump(frames / f"{name}.dump", columns).frame(5000) for name, columns in EVERY.items()}
+    synthetic.with_names_beside(frames)
+    for name, columns in EVERY.items():
+        before = Dump(frames / f"{name}.dump", columns).frame(5000)
+        assert all(np.array_equal(before[column], named[name][column]) for column in columns)
+
+
 def test_columns_without_names_are_refused(frames):
     """As in a folder of a version before names."""
+    synthetic.with_names_beside(frames)
     (frames / "discs.columns").unlink()
     with pytest.raises(ShearboxError, match=r"no column id, disc.*; discs.columns could say what c_discs\[1\] is"):
         Dump(frames / "discs.dump", DISCS).frame(0)
@@ -210,7 +222,7 @@ def test_one_column_more(frames):
     path = frames / "grains.dump"
     before = Dump(path, GRAINS).frame(5000)
     lines = path.read_text(encoding="utf-8").splitlines()
-    lines = [line + (" v_heat" if "ATOMS id" in line else " 7" if len(line.split()) == 13 else "") for line in lines]
+    lines = [line + (" v_heat" if "ATOMS id" in line else " 7" if len(line.split()) == 14 else "") for line in lines]
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
     after = Dump(path, GRAINS).frame(5000)
     assert all(np.array_equal(before[column], after[column]) for column in GRAINS)
@@ -249,9 +261,9 @@ def test_the_last_of_repeated_frames_counts(frames):
         (2, "many", "line 2: a whole number is expected, not 'many'"),
         (4, "7", "line 1: a frame of "),
         (9, "ITEM: ATOMS id type x", "no column y, radius, angle, wall, lower, lid; the columns are id type x"),
-        (12, "3 1 0.01 0.02 0 0 0 0.003 0 0 0 0", "line 12: 13 values are expected, there are 12"),
-        (12, "3 1 0.01 0.02 0 0 0 0.003 0 0 0 0 wide", "line 12: not a number"),
-        (12, "3 1 0.01 0.02 0 0 0 0.003 0 0 0 0 inf", "line 12: a value that is not finite"),
+        (12, "3 1 0.01 0.02 0 0 0 0 0.003 0 0 0 0", "line 12: 14 values are expected, there are 13"),
+        (12, "3 1 0.01 0.02 0 0 0 0 0.003 0 0 0 0 wide", "line 12: not a number"),
+        (12, "3 1 0.01 0.02 0 0 0 0 0.003 0 0 0 0 inf", "line 12: a value that is not finite"),
     ],
 )
 def test_a_damaged_dump_is_named(frames, line, text, message):

@@ -13,7 +13,7 @@ from types import FrameType
 
 from . import __version__
 from .errors import InputError, ShearboxError
-from .presets import LAWS, REFERENCE, SPEEDS
+from .presets import FORMATS, LAWS, REFERENCE, SPEEDS
 
 Commands = argparse._SubParsersAction  # argparse has no public name for it
 DEPENDENCIES = {"numpy": "python3-numpy", "scipy": "python3-scipy", "matplotlib": "python3-matplotlib",
@@ -58,6 +58,7 @@ def make_parser() -> argparse.ArgumentParser:
     _add_parameters(commands)
     _add_run(commands)
     _add_report(commands)
+    _add_export(commands)
     return parser
 
 
@@ -162,6 +163,24 @@ def _add_report(commands: Commands) -> None:
     report.set_defaults(command=_report)
 
 
+def _add_export(commands: Commands) -> None:
+    export = commands.add_parser(
+        "export",
+        help="write frames for ParaView, OVITO, pandas and others",
+        description="Write grains, discs, walls, contacts and cells of the frames of all tests in DIR: a file each and frame, "
+        "and their times in frames.csv. vtk: VTK's XML files, and a series NAME.pvd that ParaView opens; ovito: dumps with an "
+        "id for each disc, and contacts with vectors; csv; parquet. SI units.",
+    )
+    export.add_argument("folder", metavar="DIR", type=Path, help="folder of runs, or of tests by hand")
+    export.add_argument("--to", choices=FORMATS, required=True, help="format")
+    export.add_argument("--out", metavar="OUT", type=Path, help="folder of the files (default: DIR/export)")
+    export.add_argument("--stress", metavar="KPA", type=_stress, nargs="+", action="extend", default=[],
+                        help="normal stresses, kPa (default: all there are)")  # fmt: skip
+    export.add_argument("--frames", metavar="FRAMES",
+                        help="number of a frame, or FROM:TO:EVERY, TO left out; -1 is the last (default: all)")  # fmt: skip
+    export.set_defaults(command=_export)
+
+
 # The commands import what they need themselves: --help answers at once, and a missing package has a message.
 
 
@@ -188,6 +207,13 @@ def _report(options: argparse.Namespace) -> None:
     from .reporting import report_on
 
     print(f"report: {report_on(options.folder, options.model, options.speed)}")
+
+
+def _export(options: argparse.Namespace) -> None:
+    from .export import export
+
+    for folder in export(options.folder, options.to, options.out, options.stress, options.frames):
+        print(f"export: {folder}")
 
 
 def _check_dependencies() -> None:

@@ -40,8 +40,8 @@ class _Head:
 class Dump:
     """A dump, of which the given columns are read, by their names.
 
-    LAMMPS 29Sep2021 gives a column no name but that of what it is taken from: v_angle is the variable angle, c_discs[3]
-    the third of the names in the file discs.columns, which the deck writes beside the dump.
+    A column has the name of what it is taken from: v_angle is the variable angle. In dumps of an earlier version, c_discs[3]
+    is the third of the names in the file discs.columns beside the dump.
 
     After an interruption some frames are written again: the last frame of a step counts. A last frame that is not
     whole is what an engine that was stopped leaves behind, and is left out; anywhere else it is an error.
@@ -75,15 +75,23 @@ class Dump:
 
     def frame(self, step: int) -> Columns:
         """Columns of the frame of that step, each (rows,), in the units of the dump."""
+        return self._read(step, self.columns)
+
+    def whole_frame(self, step: int) -> Columns:
+        """All columns of the frame of that step, by their names."""
+        return self._read(step, None)
+
+    def _read(self, step: int, wanted: tuple[str, ...] | None) -> Columns:
         start, end = self._blocks[step]
         with self.path.open("rb") as stream:
             stream.seek(start)
             lines = stream.read(end - start).splitlines()
         head = self._head(lines, start)
-        order = self._order(head)
+        names = [self._name(word) for word in head.names]
+        require(names, self.columns, self.path, self._hint(names))
         body = [line.decode(errors="replace") for line in lines[head.lines : head.lines + head.count]]
         table = self._table(body, head, start)
-        columns = {name: table[:, k] for name, k in zip(self.columns, order)}
+        columns = {name: table[:, names.index(name)] for name in (names if wanted is None else wanted)}
         require_ranges(columns, self.path)
         return columns
 
@@ -134,12 +142,9 @@ class Dump:
             raise ShearboxError(f"{self.path}, line {line}: a whole number is expected, not {short(text)}")
         return value
 
-    def _order(self, head: _Head) -> list[int]:
-        names = [self._name(word) for word in head.names]
+    def _hint(self, names: list[str]) -> str:
         nameless = [name for name in names if name.endswith("]")]
-        hint = f"; {self._names_file.name} could say what {nameless[0]} is, but does not" if nameless else ""
-        require(names, self.columns, self.path, hint)
-        return [names.index(name) for name in self.columns]
+        return f"; {self._names_file.name} could say what {nameless[0]} is, but does not" if nameless else ""
 
     def _name(self, word: str) -> str:
         """What a column is called, or the word that stands for it if nothing gives it a name."""

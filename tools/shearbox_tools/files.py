@@ -3,7 +3,8 @@
 
 import json
 import os
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -33,17 +34,8 @@ DISCS_DUMP = "discs.dump"
 CONTACTS_DUMP = "contacts.dump"
 CELLS_DUMP = "cells.dump"
 DUMPS = (GRAINS_DUMP, DISCS_DUMP, CONTACTS_DUMP, CELLS_DUMP)
-COLUMNS = ".columns"  # ending of the file beside a dump that names its columns
-# of what pictures are made
-PICTURED = (
-    GRAINS_DUMP,
-    DISCS_DUMP,
-    CONTACTS_DUMP,
-    "discs" + COLUMNS,
-    "contacts" + COLUMNS,
-)
-MAPPED = (CELLS_DUMP, "cells" + COLUMNS)  # of what maps of fields are made, beside the grains
-FRAMES = (*PICTURED, *MAPPED)
+PICTURED = (GRAINS_DUMP, DISCS_DUMP, CONTACTS_DUMP)  # of what pictures are made
+COLUMNS = ".columns"  # ending of the file beside a dump of an earlier version that names its columns
 
 
 def stress_folder(folder: Path, sigma: float) -> Path:
@@ -76,6 +68,19 @@ def write_text(path: Path, text: str) -> None:
         with suppress(OSError):
             draft.unlink(missing_ok=True)
         raise ShearboxError(f"{path}: {error.strerror}") from error
+
+
+@contextmanager
+def drafted(path: Path) -> Iterator[Path]:
+    """A file to be written in its stead, which takes its place when it is whole."""
+    draft = path.with_name(path.name + DRAFT)
+    try:
+        yield draft
+        draft.replace(path)
+    except OSError as error:
+        raise ShearboxError(f"{path}: {error.strerror}") from error
+    finally:
+        draft.unlink(missing_ok=True)
 
 
 def write_json(path: Path, content: Any) -> None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from .errors import InputError, ShearboxError
-from .files import CONSOLIDATED_RESTART, CONSOLIDATED_TABLE, FRAMES, PACKED, PACKED_RESTART, PACKED_TABLE
+from .files import CONSOLIDATED_RESTART, CONSOLIDATED_TABLE, DUMPS, PACKED, PACKED_RESTART, PACKED_TABLE
 from .files import SHEAR_RESTARTS, SHEAR_TABLE, SHEARED_RESTART, log_file, stress_folder
 from .models import INPUT, read_variables
 from .readers import last_value, read_row, read_shear
@@ -124,7 +124,7 @@ def shearing(folder: Path, request: Request, sigma: float) -> list[Phase]:
     shear = {"speed": f"{request.speed:g}", "travel": f"{request.travel:g}"}
     return [
         Phase(CONSOLIDATE, place, {**common, "packed": packed}, CONSOLIDATED_TABLE, CONSOLIDATED_RESTART, sigma=sigma),
-        Phase(SHEAR, place, {**common, **shear}, SHEAR_TABLE, SHEARED_RESTART, FRAMES, sigma),
+        Phase(SHEAR, place, {**common, **shear}, SHEAR_TABLE, SHEARED_RESTART, DUMPS, sigma),
     ]
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What `shearbox run` may be asked for beside the variables of the decks: laws, stresses, and the settings of --accuracy.
+"""What commands may be asked for beside the variables of the decks: laws, stresses, formats, and the settings of --accuracy.
 
 Error and time of these settings are measured by tests/benchmarks/work_precision.
 """
@@ -9,3 +9,5 @@ LAWS = ("direct", "incremental")  # of pair style cdem
 REFERENCE = "reference"
 SPEEDS = {REFERENCE: 2.0, "standard": 10.0, "fast": 200.0}  # mm/s; the reference is the paper's
 STRESSES = (1, 5000)  # kPa: normal stresses from and to
+
+FORMATS = ("vtk", "ovito", "csv", "parquet")  # of shearbox export

@@ -8,7 +8,7 @@ import numpy as np
 
 from .dumps import CELLS, CONTACTS, DISCS, GRAINS, Dump
 from .errors import ShearboxError
-from .files import CELLS_DUMP, CONTACTS_DUMP, DISCS_DUMP, GRAINS_DUMP, MAPPED, PICTURED
+from .files import CELLS_DUMP, CONTACTS_DUMP, DISCS_DUMP, GRAINS_DUMP, PICTURED
 from .readers import Columns
 
 
@@ -58,8 +58,8 @@ class Film:
         self._grains = Dump(folder / GRAINS_DUMP, GRAINS)
         self._discs = Dump(folder / DISCS_DUMP, DISCS)
         self._contacts = Dump(folder / CONTACTS_DUMP, CONTACTS)
-        mapped = all((folder / name).exists() for name in MAPPED)
-        self._cells = Dump(folder / CELLS_DUMP, CELLS) if mapped else None
+        cells = folder / CELLS_DUMP
+        self._cells = Dump(cells, CELLS) if cells.exists() else None
         first = self._discs.nearest(0)
         # rows of the table are averages over the interval that ends at their step: on average half of it ago
         self._steps = np.concatenate([[first], steps - np.diff(steps, prepend=first) / 2])

@@ -7,6 +7,7 @@
 #include "input.h"
 #include "lammps.h"
 #include "modify.h"
+#include "output.h"
 #include "update.h"
 
 #include <dlfcn.h>
@@ -28,6 +29,8 @@ void LAMMPS::post_create() {
       (*modify->fix_map)[s.name] = s.fix;
     if (s.compute)
       (*modify->compute_map)[s.name] = s.compute;
+    if (s.dump)
+      (*output->dump_map)[s.name] = s.dump;
     if (s.command)
       (*input->command_map)[s.name] = s.command;
     if (s.run)

@@ -3,8 +3,10 @@
 #include "entry/styles.h"
 #include "host/version_check.h"
 
+#include "lammps.h"
 #include "lammpsplugin.h"
 #include "library.h"
+#include "output.h"
 #include "version.h"
 
 #include <cstdio>
@@ -42,6 +44,10 @@ extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc) {
 
   static const std::string info = "Shearbox " + Shearbox::version();
   for (const Shearbox::Style &s : *styles()) {
+    if (s.dump) { // the loader has no dump styles
+      (*static_cast<LAMMPS_NS::LAMMPS *>(lmp)->output->dump_map)[s.name] = s.dump;
+      continue;
+    }
     lammpsplugin_t plugin{};
     plugin.version = LAMMPS_VERSION;
     plugin.style = s.kind;

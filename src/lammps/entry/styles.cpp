@@ -22,6 +22,7 @@
 #include "output/compute_cdem_grid.h"
 #include "output/compute_cdem_limit.h"
 #include "output/compute_cdem_trm.h"
+#include "output/dump_cdem_local.h"
 #include "output/fix_cdem_trm.h"
 #include "pair.h"
 
@@ -44,6 +45,12 @@ template <class T> Shearbox::Style fix(const char *name) {
 template <class T> Shearbox::Style compute(const char *name) {
   Shearbox::Style s{"compute", name};
   s.compute = [](LAMMPS *lmp, int narg, char **arg) -> Compute * { return new T(lmp, narg, arg); };
+  return s;
+}
+
+template <class T> Shearbox::Style dump(const char *name) {
+  Shearbox::Style s{"dump", name};
+  s.dump = [](LAMMPS *lmp, int narg, char **arg) -> Dump * { return new T(lmp, narg, arg); };
   return s;
 }
 
@@ -81,6 +88,7 @@ const std::vector<Shearbox::Style> &Shearbox::styles() {
       compute<ComputeCDEMGrid>("cdem/grid"),
       compute<ComputeCDEMLimit>("cdem/limit"),
       compute<ComputeCDEMTRM>("cdem/trm"),
+      dump<DumpCDEMLocal>("cdem/local"),
       command<CDEMCreate>("cdem/create"),
       run<VerletCDEM>("verlet/cdem"),
   };

@@ -23,7 +23,7 @@
 //   rolling      torque of the rolling resistance's spring on grain 1 (N m)
 //
 // For example:  compute c all cdem/contacts x y fn sliding
-//               dump d all local 1000 contacts.dump c_c[1] c_c[2] c_c[3] c_c[4]
+//               dump d all cdem/local 1000 contacts.dump c_c[*]
 //               dump_modify d format float %.9g     # ids beyond 999999 want more than the default %g
 //
 // Needs pair_style cdem.
@@ -31,6 +31,7 @@
 
 #include "contacts/pair_cdem.h"
 #include "host/local_array.h"
+#include "host/named_columns.h"
 #include "output/named_fields.h"
 
 #include "compute.h"
@@ -40,13 +41,14 @@
 
 namespace LAMMPS_NS {
 
-class ComputeCDEMContacts : public Compute {
+class ComputeCDEMContacts : public Compute, public Shearbox::NamedColumns {
 public:
   ComputeCDEMContacts(LAMMPS *, int, char **);
 
   void init() override;
   void compute_local() override;
   double memory_usage() override;
+  std::vector<std::string> column_names() const override { return Shearbox::names_of(fields); }
 
 private:
   using Contact = ContactReport::Contact;

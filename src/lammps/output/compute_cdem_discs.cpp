@@ -19,6 +19,7 @@ const std::vector<ComputeCDEMDiscs::Field> ComputeCDEMDiscs::all_fields = {
     {"radius", [](const Disc &d) { return d.radius; }},
     {"angle", [](const Disc &d) { return d.angle; }},
     {"type", [](const Disc &d) { return static_cast<double>(d.type); }},
+    {"z", [](const Disc &) { return 0.0; }},
 };
 
 ComputeCDEMDiscs::ComputeCDEMDiscs(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg) {

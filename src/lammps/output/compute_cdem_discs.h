@@ -11,15 +11,19 @@
 //   radius  of the disc (m)
 //   angle   by which the grain has turned so far (rad, counterclockwise; not reduced to a full turn)
 //   type    of the grain
+//   z       0, for programs that cannot do without
 //
-// For example:  compute d all cdem/discs id x y radius
-//               dump d all local 1000 discs.dump c_d[*]
-//               dump_modify d format float %.9g
+// For example, discs that OVITO and others draw like any atoms:
+//
+//   compute d all cdem/discs id type x y z radius
+//   dump d all cdem/local 1000 discs.dump c_d[*]
+//   dump_modify d format float %.9g label ATOMS
 //
 // Needs pair_style cdem.
 #pragma once
 
 #include "host/local_array.h"
+#include "host/named_columns.h"
 #include "output/named_fields.h"
 
 #include "compute.h"
@@ -31,13 +35,14 @@ namespace LAMMPS_NS {
 class FixCDEMGrains;
 class PairCDEM;
 
-class ComputeCDEMDiscs : public Compute {
+class ComputeCDEMDiscs : public Compute, public Shearbox::NamedColumns {
 public:
   ComputeCDEMDiscs(LAMMPS *, int, char **);
 
   void init() override;
   void compute_local() override;
   double memory_usage() override;
+  std::vector<std::string> column_names() const override { return Shearbox::names_of(fields); }
 
 private:
   struct Disc {

@@ -13,20 +13,21 @@
 // For example, stress and rotation in cells of 1 cm, for each frame of the other dumps:
 //
 //   compute cells grains cdem/grid 10 10 within 0 0.1 0 0.1 x y solid stress_xx stress_yy stress_xy spin
-//   dump    cells all local 1000 cells.dump c_cells[*]
+//   dump    cells all cdem/local 1000 cells.dump c_cells[*]
 //   dump_modify cells format float %.9g
 //
 // The same bits for any number of ranks. Needs pair_style cdem.
 #pragma once
 
 #include "host/local_array.h"
+#include "host/named_columns.h"
 #include "output/cell_fields.h"
 
 #include "compute.h"
 
 namespace LAMMPS_NS {
 
-class ComputeCDEMGrid : public Compute {
+class ComputeCDEMGrid : public Compute, public Shearbox::NamedColumns {
 public:
   ComputeCDEMGrid(LAMMPS *, int, char **);
 
@@ -34,6 +35,7 @@ public:
   void compute_local() override;
   void compute_array() override;
   double memory_usage() override;
+  std::vector<std::string> column_names() const override { return fields.names(); }
 
 private:
   ComputeCDEMGrid(LAMMPS *, int, char **, Shearbox::DeckWords);

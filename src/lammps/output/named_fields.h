@@ -38,4 +38,11 @@ std::vector<Field<Row>> choose_fields(LAMMPS_NS::LAMMPS *lmp, const std::string 
   return chosen.empty() ? all : chosen;
 }
 
+template <class Row> std::vector<std::string> names_of(const std::vector<Field<Row>> &fields) {
+  std::vector<std::string> names;
+  for (const Field<Row> &f : fields)
+    names.push_back(f.name);
+  return names;
+}
+
 } // namespace Shearbox

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace Shearbox {
+
+// A compute that knows what the columns of its local array are called.
+class NamedColumns {
+public:
+  virtual ~NamedColumns() = default;
+  virtual std::vector<std::string> column_names() const = 0;
+};
+
+} // namespace Shearbox

@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The command `shearbox export`: frames of shear phases in the formats of other programs."""
+
+import importlib
+from collections.abc import Sequence
+from pathlib import Path
+
+from .errors import InputError, ShearboxError
+from .files import SHEAR_TABLE, write_text
+from .readers import Columns
+from .specimen import missing_frames
+from .specimens import find_runs
+from .table_files import write_csv, write_ovito, write_parquet
+from .tables import GRID, Instant, Tables
+
+NEEDS = {  # modules, and where they are from; pyarrow 18 wants a newer NumPy than Debian 12 has
+    "vtk": {"vtkmodules": "apt-get install python3-vtk9"},
+    "parquet": {"pandas": "apt-get install python3-pandas", "pyarrow": "pip install 'pyarrow<18'"},
+}
+TIMES = "frames.csv"  # the series of all formats
+
+
+def export(folder: Path, form: str, out: Path | None, stresses: Sequence[float], frames: str | None) -> list[Path]:
+    """Write the frames of all tests in a folder, or of those of the stresses (kPa); the folders written are returned.
+
+    frames: see `choose`. What cannot be done is refused before anything is written. A file is whole or not there, and the
+    series is written last; written again, files are replaced.
+    """
+    _require_modules(form)
+    chosen = [(place, tables, choose(frames, tables.steps)) for place, tables in _open(_tests(folder, stresses))]
+    written = []
+    for place, tables, steps in chosen:
+        target = (out or folder / "export") / form / place.relative_to(folder)
+        _write_test(target, form, tables, steps)
+        written.append(target)
+    return written
+
+
+def choose(frames: str | None, steps: list[int]) -> list[int]:
+    """Steps of the frames that are asked for: all, or FROM:TO:EVERY as in Python, or one by its number; -1 is the last."""
+    if frames is None:
+        return steps
+    try:
+        parts = [int(part) if part else None for part in frames.split(":")]
+        chosen = steps[slice(*parts)] if len(parts) > 1 else [steps[int(frames)]]
+    except (ValueError, TypeError, IndexError):
+        chosen = []
+    if not chosen:
+        raise InputError(f"--frames {frames}: a number, or FROM:TO:EVERY, of 0 to {len(steps) - 1} is expected")
+    return chosen
+
+
+def _require_modules(form: str) -> None:
+    for module, hint in NEEDS.get(form, {}).items():
+        try:
+            importlib.import_module(module)
+        except ImportError as error:
+            raise InputError(f"--to {form}: {error}; {hint}") from error
+
+
+def _tests(folder: Path, stresses: Sequence[float]) -> list[Path]:
+    """Folders of shear phases, by hand or of runs."""
+    found = find_runs(folder, (SHEAR_TABLE,))
+    if not found:
+        raise ShearboxError(f"{folder} holds no test: there is no {SHEAR_TABLE} in it, nor below it")
+    names = {f"{sigma:g}" for sigma in stresses}
+    if unknown := sorted(names - {place.name for place in found}):
+        there = " ".join(sorted({place.name for place in found}))
+        raise InputError(f"--stress {' '.join(unknown)}: the folders of tests in {folder} are {there}")
+    return [place for place in found if not names or place.name in names]
+
+
+def _open(places: list[Path]) -> list[tuple[Path, Tables]]:
+    for place in places:
+        if missing := missing_frames(place):
+            raise ShearboxError(f"{place}: there is no {', '.join(missing)}, so there are no frames to export")
+    return [(place, Tables(place)) for place in places]
+
+
+def _write_test(target: Path, form: str, tables: Tables, steps: list[int]) -> None:
+    """Files are numbered as the frames of the dumps are, whichever of them are chosen."""
+    try:
+        target.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ShearboxError(f"{target}: {error.strerror}") from error
+    number = {step: k for k, step in enumerate(tables.steps)}
+    instants = [tables.instant(step) for step in steps]
+    names: list[str] = []
+    for instant in instants:
+        frame = tables.frame(instant.step)
+        names = list(frame)
+        for name, table in frame.items():
+            _write(target / _file(form, name, number[instant.step]), form, name, table, instant)
+    if form == "vtk":
+        from .vtk_files import write_series
+
+        for name in names:
+            files = [_file(form, name, number[step]) for step in steps]
+            write_series(target / f"{name}.pvd", files, instants)
+    write_text(
+        target / TIMES, "frame,step,displacement_mm,time_s\n" + "".join(_row(number[i.step], i) for i in instants)
+    )
+
+
+def _row(number: int, instant: Instant) -> str:
+    time = "" if instant.time_s is None else f"{instant.time_s:.9g}"
+    return f"{number},{instant.step},{instant.displacement_mm:.9g},{time}\n"
+
+
+def _file(form: str, name: str, number: int) -> str:
+    ending = {"csv": "csv", "parquet": "parquet", "ovito": "dump", "vtk": "vtr" if name == GRID else "vtp"}[form]
+    return f"{name}_{number:05}.{ending}"
+
+
+def _write(path: Path, form: str, name: str, table: Columns, instant: Instant) -> None:
+    """Libraries that a format needs are imported for it alone."""
+    if form == "vtk":
+        from .vtk_files import write_grid, write_points
+
+        if name == GRID:
+            write_grid(path, table, instant)
+        else:
+            write_points(path, table, instant)
+    elif form == "ovito":
+        write_ovito(path, table, instant)
+    elif form == "parquet":
+        write_parquet(path, table)
+    else:
+        write_csv(path, table)
