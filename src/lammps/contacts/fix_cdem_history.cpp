@@ -21,10 +21,10 @@ using namespace LAMMPS_NS;
 
 namespace {
 constexpr tagint NOBODY = 0;
-constexpr int VERSION = 2; // of what restart files keep
 
 // The names of the remembered numbers, in restart files.
 struct Names {
+  static constexpr int VERSION = 2;
   int count;
   char name[FixCDEMHistory::MOST][cdem::LONGEST_NAME + 1];
 };
@@ -184,11 +184,11 @@ void FixCDEMHistory::write_restart(FILE *fp) {
   Names file{int(names.size()), {}};
   for (std::size_t m = 0; m < names.size(); m++)
     names[m].name.copy(file.name[m], sizeof(file.name[m]) - 1);
-  Shearbox::write_state(fp, VERSION, file);
+  Shearbox::write_state(fp, file);
 }
 
 void FixCDEMHistory::restart(char *buf) {
-  const auto file = Shearbox::read_state<Names>(lmp, style, VERSION, buf);
+  const auto file = Shearbox::read_state<Names>(lmp, style, buf);
   names.clear();
   for (int m = 0; m < file.count; m++)
     names.push_back({file.name[m], false});

@@ -9,8 +9,8 @@
 using namespace LAMMPS_NS;
 
 namespace {
-constexpr int VERSION = 1; // of what restart files keep
 struct Saved {
+  static constexpr int VERSION = 1;
   FixCDEMAudit::Books books;
   FixCDEMAudit::Opening opening;
   double open;
@@ -38,11 +38,11 @@ void FixCDEMAudit::write_restart(FILE *fp) {
     opener->book_losses();
   const Saved saved{all(), opening, double(open)};
   if (comm->me == 0)
-    Shearbox::write_state(fp, VERSION, saved);
+    Shearbox::write_state(fp, saved);
 }
 
 void FixCDEMAudit::restart(char *buf) {
-  const auto saved = Shearbox::read_state<Saved>(lmp, style, VERSION, buf);
+  const auto saved = Shearbox::read_state<Saved>(lmp, style, buf);
   opening = saved.opening;
   open = saved.open != 0;
   if (comm->me == 0)

@@ -22,7 +22,6 @@
 using namespace LAMMPS_NS;
 
 namespace {
-constexpr int VERSION = 2; // of what restart files keep
 constexpr double UNKNOWN = NAN;
 } // namespace
 
@@ -215,11 +214,11 @@ int FixCDEMGrains::unpack_exchange(int i, double *buf) {
 void FixCDEMGrains::write_restart(FILE *fp) {
   keep_scene();
   if (comm->me == 0)
-    Shearbox::write_state(fp, VERSION, kept);
+    Shearbox::write_state(fp, kept);
 }
 
 void FixCDEMGrains::restart(char *buf) {
-  kept = Shearbox::read_state<decltype(kept)>(lmp, style, VERSION, buf);
+  kept = Shearbox::read_state<Kept>(lmp, style, buf);
   scene_is_new = false;
 }
 

@@ -143,10 +143,11 @@ private:
   std::vector<double> inertias; // by type
   std::uint64_t rules = 0;
   bool scene_is_new = false; // a step has been made since it was kept
-  struct {
+  struct Kept {              // in restart files
+    static constexpr int VERSION = 2;
     std::uint64_t grains = 0, rules = 0; // fingerprints of the scene
     double shapes = 0;
-  } kept; // what restart files keep
+  } kept;
 };
 
 } // namespace LAMMPS_NS

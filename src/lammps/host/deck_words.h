@@ -84,6 +84,7 @@ public:
   }
 
   LAMMPS_NS::LAMMPS *const lmp;
+  const std::string who;
 
 private:
   std::string value(const std::string &what) {
@@ -92,7 +93,6 @@ private:
     return arg[next++];
   }
 
-  const std::string who;
   const int narg;
   char **const arg;
   int next;

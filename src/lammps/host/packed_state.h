@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The state that a fix keeps in restart files, with a mark, a version and its length in front. A file of another
-// version is refused with the name of the style, and never misread.
+// The state that a fix keeps in restart files, with a mark, its version and its length in front. A file of another
+// version is refused with the name of the style, and never misread. Every State has a constant VERSION: to be raised
+// when fields are added, removed, or get another meaning.
 #pragma once
 
 #include "error.h"
@@ -19,10 +20,9 @@ struct StateHead {
   int mark, version, length;
 };
 
-// Writes a state. Raise the version whenever State changes: fields added, removed, or with another meaning.
-template <class State> void write_state(FILE *file, int version, const State &state) {
+template <class State> void write_state(FILE *file, const State &state) {
   static_assert(std::is_trivially_copyable_v<State>);
-  const StateHead head{StateHead::MARK, version, int(sizeof(State))};
+  const StateHead head{StateHead::MARK, State::VERSION, int(sizeof(State))};
   const int size = int(sizeof(head) + sizeof(state)); // LAMMPS needs it in front
   fwrite(&size, sizeof(size), 1, file);
   fwrite(&head, sizeof(head), 1, file);
@@ -36,16 +36,16 @@ template <class State> void write_state(FILE *file, int version, const State &st
   lmp->error->all(FLERR, message);
 }
 
-template <class State> State read_state(LAMMPS_NS::LAMMPS *lmp, const char *style, int version, const char *block) {
+template <class State> State read_state(LAMMPS_NS::LAMMPS *lmp, const char *style, const char *block) {
   StateHead head{0, 0, 0};
   memcpy(&head.mark, block, sizeof(head.mark)); // no block is shorter than this
   if (head.mark != StateHead::MARK)
     refuse_state(lmp, style, "a state without a version");
   memcpy(&head, block, sizeof(head));
-  if (head.version != version || head.length != int(sizeof(State)))
+  if (head.version != State::VERSION || head.length != int(sizeof(State)))
     refuse_state(lmp, style,
                  fmt::format("version {} of its state, {} bytes, where version {}, {} bytes, is needed", head.version,
-                             head.length, version, sizeof(State)));
+                             head.length, int(State::VERSION), sizeof(State)));
   State state;
   memcpy(&state, block + sizeof(head), sizeof(state));
   return state;

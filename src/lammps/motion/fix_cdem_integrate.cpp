@@ -27,8 +27,8 @@ using namespace LAMMPS_NS;
 
 namespace {
 constexpr int KEEP_EVERY = 5000; // steps
-constexpr int VERSION = 1;       // of what restart files keep
 struct Kept {
+  static constexpr int VERSION = 1;
   double step; // see StepChoice::kept_step
 };
 } // namespace
@@ -354,9 +354,7 @@ double FixCDEMIntegrate::memory_usage() { return guard.bytes(); }
 
 void FixCDEMIntegrate::write_restart(FILE *fp) {
   if (comm->me == 0)
-    Shearbox::write_state(fp, VERSION, Kept{step.kept_step});
+    Shearbox::write_state(fp, Kept{step.kept_step});
 }
 
-void FixCDEMIntegrate::restart(char *buf) {
-  step.kept_step = Shearbox::read_state<Kept>(lmp, style, VERSION, buf).step;
-}
+void FixCDEMIntegrate::restart(char *buf) { step.kept_step = Shearbox::read_state<Kept>(lmp, style, buf).step; }

@@ -22,11 +22,6 @@
 
 using namespace LAMMPS_NS;
 
-namespace {
-enum Output { APPLIED, FELT, HEIGHT, VELOCITY, CAPPED_STEPS, FORCE_X, NOUTPUTS };
-constexpr int VERSION = 3; // of what restart files keep
-} // namespace
-
 FixCDEMLid::FixCDEMLid(LAMMPS *lmp, int narg, char **arg) : WallBody(lmp, narg, arg) {
   bool has_stress = false;
   Shearbox::DeckWords words = words_of(narg, arg);
@@ -207,11 +202,11 @@ double FixCDEMLid::compute_vector(int n) {
 
 void FixCDEMLid::write_restart(FILE *fp) {
   if (comm->me == 0)
-    Shearbox::write_state(fp, VERSION, Saved{capped_steps, booked});
+    Shearbox::write_state(fp, Saved{capped_steps, booked});
 }
 
 void FixCDEMLid::restart(char *buf) {
-  const auto saved = Shearbox::read_state<Saved>(lmp, style, VERSION, buf);
+  const auto saved = Shearbox::read_state<Saved>(lmp, style, buf);
   capped_steps = saved.capped_steps;
   booked = saved.booked;
 }

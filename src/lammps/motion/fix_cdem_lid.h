@@ -45,7 +45,10 @@ public:
   void restart(char *) override;
 
 private:
+  enum Output { APPLIED, FELT, HEIGHT, VELOCITY, CAPPED_STEPS, FORCE_X, NOUTPUTS };
+
   struct Saved {
+    static constexpr int VERSION = 3;
     double capped_steps;
     Booked booked;
   };

@@ -15,8 +15,6 @@
 using namespace LAMMPS_NS;
 
 namespace {
-enum Output { DISPLACEMENT, SPEED, FORCE_X, FORCE_Y, NOUTPUTS };
-constexpr int VERSION = 2; // of what restart files keep
 constexpr double PI = 3.14159265358979323846;
 constexpr double RESOLUTION = 0x1p-50; // m, see the header
 } // namespace
@@ -143,11 +141,11 @@ double FixCDEMMove::compute_vector(int n) {
 
 void FixCDEMMove::write_restart(FILE *fp) {
   if (comm->me == 0)
-    Shearbox::write_state(fp, VERSION, Saved{clock, booked});
+    Shearbox::write_state(fp, Saved{clock, booked});
 }
 
 void FixCDEMMove::restart(char *buf) {
-  const auto saved = Shearbox::read_state<Saved>(lmp, style, VERSION, buf);
+  const auto saved = Shearbox::read_state<Saved>(lmp, style, buf);
   clock = saved.clock;
   booked = saved.booked;
 }

@@ -54,7 +54,10 @@ private:
     double start, steps, dt;
   };
 
+  enum Output { DISPLACEMENT, SPEED, FORCE_X, FORCE_Y, NOUTPUTS };
+
   struct Saved {
+    static constexpr int VERSION = 2;
     Clock clock;
     Booked booked;
   };

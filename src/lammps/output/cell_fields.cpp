@@ -61,9 +61,9 @@ void place(const cdem::GrainShape &shape, cdem::Point at, double radius, double 
 
 } // namespace
 
-CellFields::CellFields(LAMMPS *lmp, const std::string &who, int group_bit, Shearbox::DeckWords words, char **arg,
+CellFields::CellFields(LAMMPS *lmp, int group_bit, Shearbox::DeckWords words, char **arg,
                        const std::vector<Field> &before)
-    : Pointers(lmp), who(who), group_bit(group_bit), limits(lmp, who, words) {
+    : Pointers(lmp), who(words.who), group_bit(group_bit), limits(lmp, who, words) {
   std::vector<Field> known = before;
   known.insert(known.end(), all_fields.begin(), all_fields.end());
   fields = Shearbox::choose_fields(lmp, who, words.left(), arg + words.read(), known);

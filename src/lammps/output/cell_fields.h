@@ -25,8 +25,7 @@ public:
 
   // Reads the last words of a compute, `[within ...] [field ...]`. The fields are those in `before` and those of
   // cdem/average.
-  CellFields(LAMMPS *, const std::string &who, int group_bit, Shearbox::DeckWords words, char **arg,
-             const std::vector<Field> &before = {});
+  CellFields(LAMMPS *, int group_bit, Shearbox::DeckWords words, char **arg, const std::vector<Field> &before = {});
 
   void init();
   int columns() const { return int(fields.size()); }

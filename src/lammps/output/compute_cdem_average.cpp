@@ -5,10 +5,9 @@
 
 using namespace LAMMPS_NS;
 
-static std::string name(char **arg) { return fmt::format("Compute cdem/average {}", arg[0]); }
-
 ComputeCDEMAverage::ComputeCDEMAverage(LAMMPS *lmp, int narg, char **arg)
-    : Compute(lmp, narg, arg), fields(lmp, name(arg), groupbit, {lmp, name(arg), narg, arg, 3}, arg),
+    : Compute(lmp, narg, arg),
+      fields(lmp, groupbit, {lmp, fmt::format("Compute cdem/average {}", id), narg, arg, 3}, arg),
       values(fields.columns()) {
   vector_flag = 1;
   extvector = 0;

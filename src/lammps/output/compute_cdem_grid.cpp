@@ -11,23 +11,21 @@ namespace {
 
 constexpr int MOST_CELLS = 100000;
 
-const std::vector<CellFields::Field> place = {
+const std::vector<CellFields::Field> centre = {
     {"x", [](const cdem::CellMeans &c) { return c.centre.x; }},
     {"y", [](const cdem::CellMeans &c) { return c.centre.y; }},
 };
 
-std::string name(char **arg) { return fmt::format("Compute cdem/grid {}", arg[0]); }
-
 } // namespace
 
 ComputeCDEMGrid::ComputeCDEMGrid(LAMMPS *lmp, int narg, char **arg)
-    : ComputeCDEMGrid(lmp, narg, arg, Shearbox::DeckWords(lmp, name(arg), narg, arg, 3)) {}
+    : ComputeCDEMGrid(lmp, narg, arg,
+                      Shearbox::DeckWords(lmp, fmt::format("Compute cdem/grid {}", arg[0]), narg, arg, 3)) {}
 
 ComputeCDEMGrid::ComputeCDEMGrid(LAMMPS *lmp, int narg, char **arg, Shearbox::DeckWords words)
-    : Compute(lmp, narg, arg), nx(words.count("NX")), ny(words.count("NY")),
-      fields(lmp, name(arg), groupbit, words, arg, place) {
+    : Compute(lmp, narg, arg), nx(words.count("NX")), ny(words.count("NY")), fields(lmp, groupbit, words, arg, centre) {
   if (nx > MOST_CELLS / ny)
-    error->all(FLERR, "{}: {} x {} cells, at most {} are allowed", name(arg), nx, ny, MOST_CELLS);
+    error->all(FLERR, "{}: {} x {} cells, at most {} are allowed", words.who, nx, ny, MOST_CELLS);
   local_flag = array_flag = 1;
   extarray = 0;
   size_array_rows = nx * ny;
