@@ -30,6 +30,7 @@ STYLES = {
         "cdem/force",
         "cdem/grid",
         "cdem/limit",
+        "cdem/signal",
         "cdem/trm",
     },
     "command": {"cdem/create"},

@@ -3,6 +3,8 @@
 
 import argparse
 import os
+import signal
+from collections.abc import Mapping
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
@@ -48,19 +50,37 @@ def run(options: argparse.Namespace) -> None:
         locks = {folder: stack.enter_context(locked(folder)) for folder in folders}
         for one in runs:
             open_folder(one.folder, one.request)
-        _say(console, f"left: {total(forecasts, options.jobs)}")
-        display = make_display(console, _whole(runs, forecasts))
-        try:
-            failures = Campaign(runs, engine, display, locks).run(options.jobs)
-        finally:
-            display.close()
-        problems = _report(out, console) if any(any(_sheared(one)) for one in runs) else []
-    if failures:
-        problems += [failure.message for failure in failures] + ["The other results are kept."]
-    if any(failure.may_pass for failure in failures):
-        problems.append("The same command goes on where this one stopped.")
+        problems = carry_out(runs, engine, options.jobs, locks, console)
+        if any(any(_sheared(one)) for one in runs):
+            problems = _report(out, console) + problems
     if problems:
         raise ShearboxError("\n".join(problems))
+
+
+def carry_out(runs: list[Run], engine: Engine, jobs: int, locks: Mapping[Path, int], console: Console) -> list[str]:
+    """Work through the runs, whose folders are locked and open; what has failed is returned.
+
+    Asked to end by SIGUSR1, it does so with restart files of now, and raises KeyboardInterrupt.
+    """
+    forecasts = [Forecast(one.folder, one.request) for one in runs]
+    _say(console, f"left: {total(forecasts, jobs)}")
+    display = make_display(console, _whole(runs, forecasts))
+    campaign = Campaign(runs, engine, display, locks)
+    signal.signal(signal.SIGUSR1, lambda *_: campaign.end())
+    try:
+        failures = campaign.run(jobs)
+    finally:
+        display.close()
+    problems = [failure.message for failure in failures]
+    if campaign.stopped:
+        for problem in problems:
+            _say(console, problem)
+        raise KeyboardInterrupt(signal.SIGUSR1)
+    if failures:
+        problems.append("The other results are kept.")
+    if any(failure.may_pass for failure in failures):
+        problems.append("The same command goes on where this one stopped.")
+    return problems
 
 
 def _asked(given: dict[str, Any]) -> tuple[Path, list[Run]]:
