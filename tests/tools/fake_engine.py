@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Stands in for lmp_cdem: takes its command line and writes what the decks write, with known curves.
 
-FAKE_SECONDS: how long a shear phase takes; FAKE_FAIL: end of the folder of a phase that fails half way ('200', 'packed',
+FAKE_SECONDS: how long a shear phase takes that begins anew; FAKE_FAIL: end of the folder of a phase that fails half way ('200', 'packed',
 'seed_2/packed');
 FAKE_DIARY: file that gets a line when an engine starts, and from which restart file, and ends.
 """
@@ -82,7 +82,8 @@ def shear(variables: dict[str, str], log: Path) -> None:
         if asked:
             synthetic.write_restart(Path("shear.restart.c"), step)
             sys.exit(0)
-        time.sleep(float(os.environ.get("FAKE_SECONDS", "0")) / ROWS)
+        if not begin:
+            time.sleep(float(os.environ.get("FAKE_SECONDS", "0")) / ROWS)
     synthetic.write_restart(Path("sheared.restart"), ROWS * synthetic.STEPS_PER_ROW)
     for path in Path().glob("shear.restart.?"):
         path.unlink()
