@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Stands in for lmp_cdem: takes its command line and writes what the decks write, with known curves.
 
-FAKE_SECONDS: how long a shear phase takes that begins anew; FAKE_FAIL: end of the folder of a phase that fails half way ('200', 'packed',
-'seed_2/packed');
+FAKE_SECONDS: how long a shear phase takes that begins anew; FAKE_FAIL: end of the folder of a phase that fails half way
+('200', 'packed', 'seed_2/packed');
 FAKE_DIARY: file that gets a line when an engine starts, and from which restart file, and ends.
 """
 
@@ -13,9 +13,8 @@ import sys
 import time
 from pathlib import Path
 
-import synthetic
-
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
+import synthetic  # noqa: E402
 from shearbox_tools.files import DUMPS  # noqa: E402
 from shearbox_tools.phases import rows_of_shear, steps_between_frames  # noqa: E402
 from shearbox_tools.restarts import step_of  # noqa: E402
