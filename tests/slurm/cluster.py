@@ -15,7 +15,7 @@ from pathlib import Path
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scancel", "scontrol")
 PATH = os.environ["PATH"] + ":/usr/sbin"
-SECONDS = 60.0  # for anything that takes some seconds on an idle machine
+SECONDS = 120.0  # for anything that takes half a minute on an idle machine
 CPUS = 8  # whatever the machine has
 # A requeued job waits for its credential to expire: two minutes, unless cred_expire says less, of which 5 s is the least.
 CONFIGURATION = """
