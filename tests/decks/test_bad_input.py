@@ -113,6 +113,8 @@ CASES: dict[str, tuple[str, str, str]] = {
     "no part": ("timestep", "compute load all cdem/force\ntimestep", r"Compute cdem/force load: names of groups are missing"),
     "an unknown part": ("timestep", "compute load all cdem/force roof\ntimestep", r"Compute cdem/force load: there is no group roof"),
     "an argument of the limit": ("timestep", "compute limit all cdem/limit fast\ntimestep", r"Compute cdem/limit: unknown argument fast"),
+    "an argument of the signal": ("timestep", "compute asked all cdem/signal USR2\ntimestep", r"Compute cdem/signal: unknown argument USR2"),
+    "the signal of a group": ("timestep", "compute asked grains cdem/signal\ntimestep", r"Compute cdem/signal asked: the group must be all"),
     "the limit of a group": ("timestep", "compute limit grains cdem/limit\ntimestep", r"Compute cdem/limit limit: the group must be all"),
     "a group that is not there": ("move grains", "move sand", r"sand"),
     # lid

@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+import shutil
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,14 +17,8 @@ INPUT = ROOT / "input"
 sys.path.insert(0, str(ROOT / "tools"))
 
 from shearbox_tools.dumps import Dump  # noqa: E402
-from shearbox_tools.files import (
-    CELLS_DUMP,
-    CONTACTS_DUMP,
-    DISCS_DUMP,
-    GRAINS_DUMP,
-    PACKED_TABLE,
-    SHEAR_TABLE,
-)  # noqa: E402
+from shearbox_tools.files import CELLS_DUMP, CONSOLIDATED_RESTART, CONTACTS_DUMP, DISCS_DUMP, GRAINS_DUMP  # noqa: E402
+from shearbox_tools.files import PACKED_TABLE, SHEAR_TABLE, SHEARED_RESTART  # noqa: E402
 from shearbox_tools.grains import area_over_largest  # noqa: E402
 from shearbox_tools.models import read_model  # noqa: E402
 from shearbox_tools.readers import read_row, read_shear  # noqa: E402
@@ -41,6 +37,9 @@ variable power       index 0
 variable ngrains     index {GRAINS}
 variable shape       index "file cross.txt"
 """
+OPTIONS: dict[str, Any] = {"decks": INPUT, "model": "crosses", "sigma": 100, "seed": 3}
+SHEAR = (INPUT / "shear.in").read_text()
+TEST: dict[str, Any] = OPTIONS | {"speed": 20, "travel": 1, "rows": 20, "frames": 2}
 
 
 @pytest.fixture(name="folder", scope="module", params=[1, 2], ids="{}-ranks".format)
@@ -49,10 +48,9 @@ def _folder(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFac
     folder = tmp_path_factory.mktemp("own")
     (folder / "cross.txt").write_text(CROSS)
     (folder / "crosses.in").write_text(MODEL)
-    options = {"decks": INPUT, "models": folder, "model": "crosses", "sigma": 100, "seed": 3, "ranks": request.param}
     for deck in ("pack", "consolidate"):
-        run((INPUT / f"{deck}.in").read_text(), folder, **options)
-    run((INPUT / "shear.in").read_text(), folder, speed=20, travel=1, rows=20, frames=2, **options)
+        run((INPUT / f"{deck}.in").read_text(), folder, **OPTIONS, models=folder, ranks=request.param)
+    run(SHEAR, folder, **TEST, models=folder, ranks=request.param)
     return folder
 
 
@@ -154,6 +152,27 @@ def test_contacts_are_between_grains_that_touch(folder: Path) -> None:
                 centres = centres[:1] + along * (centres[1] - centres[0])
             reach = np.hypot(*(centres - [x, y]).T) - discs["radius"][mine][0]
             assert abs(reach.min()) < 0.01 * D
+
+
+def test_asked_to_end_it_does_so_after_the_next_row(folder: Path, tmp_path: Path) -> None:
+    """And goes on to the same bits, on another number of ranks; asked again, too. Of two ranks one gets the signal."""
+    shutil.copy(folder / CONSOLIDATED_RESTART, tmp_path)
+    asking = SHEAR.replace("\nrun         1\n", '\nshell "kill -USR1 $PPID"\nrun         1\n')
+    assert asking != SHEAR
+    going_on: dict[str, Any] = TEST | {"from": "c"}
+    for row, options in ((1, TEST), (2, going_on)):
+        run(asking, tmp_path, **options, models=folder, ranks=2)
+        assert int((tmp_path / SHEAR_TABLE).read_text().splitlines()[-1].split()[0]) == row * first_row(folder)
+        assert not (tmp_path / SHEARED_RESTART).exists()
+    run(SHEAR, tmp_path, **going_on, models=folder)
+    for name in (SHEAR_TABLE, GRAINS_DUMP):
+        assert (tmp_path / name).read_bytes() == (folder / name).read_bytes(), name
+    assert not list(tmp_path.glob("shear.restart.*"))
+
+
+def first_row(folder: Path) -> int:
+    """Its step."""
+    return int(read_shear(folder / SHEAR_TABLE)["step"][0])
 
 
 # --- what other programs make of the dumps --------------------------------------------------------

@@ -33,6 +33,7 @@ STYLES = {
         "cdem/force",
         "cdem/grid",
         "cdem/limit",
+        "cdem/signal",
         "cdem/trm",
     },
     "dump": {"cdem/local"},

@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Stands in for lmp_cdem: takes its command line and writes what the decks write, with known curves.
 
-FAKE_SECONDS: how long a shear phase takes; FAKE_FAIL: end of the folder of a phase that fails half way ('200', 'packed',
-'seed_2/packed');
+FAKE_SECONDS: how long a shear phase takes that begins anew; FAKE_FAIL: end of the folder of a phase that fails half way
+('200', 'packed', 'seed_2/packed');
 FAKE_DIARY: file that gets a line when an engine starts, and from which restart file, and ends.
 """
 
 import os
+import signal
 import sys
 import time
 from pathlib import Path
@@ -63,6 +64,8 @@ def shear(variables: dict[str, str], log: Path) -> None:
         synthetic.write_shear(table, columns, slice(0, 0))
         synthetic.write_frames(Path(), [0], travel)
     frames = {name: Path(name).read_text(encoding="utf-8") for name in DUMPS}
+    asked: list[int] = []
+    signal.signal(signal.SIGUSR1, lambda *_: asked.append(1))
     first = {name: text[: text.find("ITEM: TIMESTEP", 1) if begin else None] for name, text in frames.items()}
     for row in range(begin, ROWS):
         if row == ROWS // 2:
@@ -75,7 +78,11 @@ def shear(variables: dict[str, str], log: Path) -> None:
                     stream.write(text.replace("TIMESTEP\n0\n", f"TIMESTEP\n{step}\n"))
         if (row + 1) % ROWS_PER_RESTART == 0:
             synthetic.write_restart(Path("shear.restart." + "ab"[(row + 1) // ROWS_PER_RESTART % 2]), step)
-        time.sleep(float(os.environ.get("FAKE_SECONDS", "0")) / ROWS)
+        if asked:
+            synthetic.write_restart(Path("shear.restart.c"), step)
+            sys.exit(0)
+        if not begin:
+            time.sleep(float(os.environ.get("FAKE_SECONDS", "0")) / ROWS)
     synthetic.write_restart(Path("sheared.restart"), ROWS * synthetic.STEPS_PER_ROW)
     for path in Path().glob("shear.restart.?"):
         path.unlink()

@@ -33,7 +33,7 @@ def test_plain_lines(monkeypatch):
     assert text.splitlines() == [
         "pack: started",
         "pack: done in 4 s",
-        "shear 100 kPa: started",
+        "shear 100 kPa: started at 4.00 mm",
         "shear 100 kPa at 5.00 mm; 31 % of all, about 7 min left",
         "shear 100 kPa at 6.00 mm; 38 % of all, about 7 min left",
         "shear 100 kPa at 7.00 mm; 44 % of all, about 6 min left",

@@ -15,6 +15,7 @@ import pytest
 from shearbox_tools import cli
 from shearbox_tools.presets import SPEEDS
 from shearbox_tools.request import Request
+from shearbox_tools.restarts import step_of
 
 TESTS = Path(__file__).resolve().parent
 SHEARBOX = TESTS.parents[1] / "tools" / "shearbox"
@@ -109,6 +110,44 @@ def test_stopped_and_taken_up_again(folder, tmp_path, sign, status):
     assert (folder / "100" / "shear.dat").read_text(encoding="utf-8").splitlines()[: len(before)] == before
     assert summary(folder)["complete"]
     assert rows(folder, 100) == rows(folder, 300) == 800
+
+
+def test_asked_to_end_it_goes_on_from_the_row_that_it_has_reached(folder, tmp_path):
+    """As a batch system asks before a job's limit; a stress that has not begun does not begin."""
+    options = ("--stress", "100", "200", "300")
+    engine = subprocess.Popen(
+        command(folder, *options), env={**os.environ, "FAKE_SECONDS": "40"}, stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    wait_for(lambda: all((folder / s / f"shear.restart.{k}").exists() for s in ("100", "200") for k in "ab"))
+    engine.send_signal(signal.SIGUSR1)
+    said, message = engine.communicate(timeout=15)
+    assert engine.returncode == 128 + signal.SIGUSR1
+    assert "To go on:" in message and said.count("as asked") == 2 and "300 kPa" not in said
+    reached = {s: step_of(folder / s / "shear.restart.c") for s in ("100", "200")}
+    before = {s: (folder / s / "shear.dat").read_text(encoding="utf-8").splitlines() for s in reached}
+    for s, lines in before.items():
+        assert int(lines[-1].split()[0]) == reached[s], "its last row is that of the restart file"
+    diary = tmp_path / "diary"
+    done = shearbox(folder, *options, FAKE_DIARY=str(diary))
+    assert done.returncode == 0, done.stderr
+    assert re.findall("start shear [12]00 ([abc])", diary.read_text(encoding="utf-8")) == ["c", "c"]
+    for s, lines in before.items():
+        assert (folder / s / "shear.dat").read_text(encoding="utf-8").splitlines()[: len(lines)] == lines
+        assert not list((folder / s).glob("shear.restart.*"))
+    assert summary(folder)["complete"]
+
+
+def test_asked_to_end_while_it_packs(folder, tmp_path):
+    slow = tmp_path / "slow"
+    slow.write_text("#!/bin/sh\nexec sleep 60\n", encoding="utf-8")
+    slow.chmod(0o755)
+    engine = subprocess.Popen([*command(folder), "--engine", str(slow)], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    wait_for(lambda: (folder / "packed" / "pack.out").exists())
+    engine.send_signal(signal.SIGUSR1)
+    engine.communicate(timeout=15)
+    assert engine.returncode == 128 + signal.SIGUSR1
+    assert shearbox(folder, "--stress", "100").returncode == 0
 
 
 def wait_for(condition, seconds: float = 30) -> None:

@@ -46,6 +46,7 @@ class Job:
     chain: Chain
     process: subprocess.Popen[bytes]
     begun: float = field(default_factory=time.monotonic)
+    asked: bool = False  # to end
     seen: dict[str, int] = field(default_factory=dict)  # times (ns) of the checkpoints that are sealed
 
     @property
@@ -68,6 +69,12 @@ class Campaign:
         self._display = display
         self._locks = locks
         self._failures: list[Failure] = []
+        self._ending = False
+        self.stopped = False  # before all was done, as asked
+
+    def end(self) -> None:
+        """Begin nothing more; a running shear phase ends after its next row, with a restart file, the others at once."""
+        self._ending = True
 
     def run(self, jobs: int) -> list[Failure]:
         """Pack, consolidate and shear, `jobs` phases of all runs at a time; what failed is told and returned.
@@ -78,12 +85,14 @@ class Campaign:
         waiting = deque(chain for run in self._runs for chain in _left_to_do(run))
         running: list[Job] = []
         try:
-            while waiting or running:
-                while waiting and len(running) < jobs:
+            while running or (waiting and not self._ending):
+                while waiting and len(running) < jobs and not self._ending:
                     chain = waiting.popleft()
                     running.append(Job(chain, self._start(chain)))
                 time.sleep(POLL_SECONDS)
                 self._guard_disk()
+                if self._ending:
+                    _ask_to_end(running)
                 for job in list(running):
                     if not self._attend(job):
                         running.remove(job)
@@ -91,6 +100,7 @@ class Campaign:
                             waiting.extendleft(reversed(job.chain.then))
         finally:
             self._stop(running)
+        self.stopped |= bool(waiting)
         return self._failures
 
     def _start(self, chain: Chain) -> subprocess.Popen[bytes]:
@@ -114,6 +124,10 @@ class Campaign:
             return True
         seconds = _record_time(job)
         _seal(phase)
+        if job.asked and not phase.ended:
+            self._display.ended(job.label, f"stopped after {duration(seconds)}, as asked")
+            self.stopped = True
+            return False
         if status != 0 or not phase.ended:
             failure = explain_failure(phase, status)
             self._failures.append(replace(failure, message=f"{job.chain.run.name} {failure.message}".lstrip()))
@@ -123,9 +137,11 @@ class Campaign:
         phase.screen.unlink(missing_ok=True)
         self._display.ended(job.label, f"done in {duration(seconds)}")
         job.chain.phases.popleft()
-        if job.chain.phases:
-            job.process, job.begun = self._start(job.chain), time.monotonic()
-        return bool(job.chain.phases)
+        if not job.chain.phases or self._ending:
+            self.stopped |= bool(job.chain.phases)
+            return False
+        job.process, job.begun = self._start(job.chain), time.monotonic()
+        return True
 
     def _stop(self, running: list[Job]) -> None:
         """End what is still running; a second Ctrl-C must not cut this short."""
@@ -149,6 +165,16 @@ class Campaign:
                 f"stopped because the disk of {folder} is nearly full: {free / 1e6:.0f} MB free, "
                 f"{LEAST_FREE_BYTES / 1e6:.0f} are the least"
             )
+
+
+def _ask_to_end(jobs: list[Job]) -> None:
+    """Each of them once."""
+    for job in [job for job in jobs if not job.asked]:
+        job.asked = True
+        if job.phase.checkpoints:
+            job.process.send_signal(signal.SIGUSR1)  # mpirun passes it on; see compute cdem/signal
+        else:
+            stop([job.process])
 
 
 def _left_to_do(run: Run) -> list[Chain]:

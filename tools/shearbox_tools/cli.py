@@ -59,6 +59,8 @@ def make_parser() -> argparse.ArgumentParser:
     _add_run(commands)
     _add_report(commands)
     _add_export(commands)
+    _add_submit(commands)
+    _add_jobs(commands)
     return parser
 
 
@@ -84,6 +86,12 @@ def _add_run(commands: Commands) -> None:
         "Run again with the same DIR, it goes on where it stopped; further stresses may be added later.",
         argument_default=argparse.SUPPRESS,  # so that 'run DIR' knows what was given
     )
+    _add_what_to_run(run)
+    run.set_defaults(command=_run, jobs=2)
+
+
+def _add_what_to_run(run: argparse.ArgumentParser) -> None:
+    """The options that `run` and `submit` share."""
     run.add_argument("model", metavar="MODEL",
                      help="name of a model, as 'shearbox models' lists them; or the path of a model file, NAME.in; or the "
                      "folder of earlier runs, which go on as they were asked for")  # fmt: skip
@@ -114,14 +122,13 @@ def _add_run(commands: Commands) -> None:
         "--jobs",
         metavar="N",
         type=int,
-        default=2,
-        help="phases run at the same time, of all stresses and specimens (default: 2)",
+        help="phases run at the same time, of all stresses and specimens (default: 2; of 'submit': those of a job, as many "
+        "as a node has cores for, else one for each stress)",
     )
     run.add_argument("--ranks", metavar="N", type=int, default=1, help="MPI ranks of each phase (default: 1)")
     run.add_argument("--engine", metavar="FILE", type=Path, help="engine (default: lmp_cdem of this Shearbox)")
     run.add_argument("--dry-run", action="store_true", default=False,
-                     help="only say what would run, about how long, and how much it would write")  # fmt: skip
-    run.set_defaults(command=_run)
+                     help="only say what would run, about how long, and how much it would write; of 'submit': the scripts")  # fmt: skip
 
 
 def _stress(text: str) -> float:
@@ -181,6 +188,34 @@ def _add_export(commands: Commands) -> None:
     export.set_defaults(command=_export)
 
 
+def _add_submit(commands: Commands) -> None:
+    submit = commands.add_parser(
+        "submit",
+        help="run on a cluster",
+        description="Submit what 'shearbox run' with the same options would do to the batch system of a cluster: an array of "
+        "jobs for all tests, and the report after them. A job ends before its limit and begins again, to go on; one that "
+        "fails does not touch the others. Given again, it submits what is left.",
+        argument_default=argparse.SUPPRESS,
+    )
+    _add_what_to_run(submit)
+    submit.add_argument("--cluster", metavar="FILE", type=Path,
+                        help="what jobs of the cluster need, see examples/cluster (default: ~/.config/shearbox/cluster.toml, "
+                        "if there is one)")  # fmt: skip
+    submit.set_defaults(command=_submit)
+
+
+def _add_jobs(commands: Commands) -> None:
+    for name, command, what in (
+        ("status", _status, "say what the jobs of a folder are doing"),
+        ("cancel", _cancel, "end the jobs of a folder"),
+        ("element", _element, "carry out a part of what was submitted: for the scripts of jobs"),
+    ):
+        parser = commands.add_parser(name, help=what, description=f"{what[0].upper()}{what[1:]}.")
+        parser.add_argument("folder", metavar="DIR", type=Path, help="folder given to 'shearbox submit --out'")
+        parser.set_defaults(command=command)
+    parser.add_argument("number", metavar="N", type=int, help="number of the element, from 1 on")
+
+
 # The commands import what they need themselves: --help answers at once, and a missing package has a message.
 
 
@@ -199,8 +234,13 @@ def _parameters(_: argparse.Namespace) -> None:
 def _run(options: argparse.Namespace) -> None:
     from .run import run
 
+    run(_with_speed(options))
+
+
+def _with_speed(options: argparse.Namespace) -> argparse.Namespace:
+    """As --accuracy chooses it."""
     of_accuracy = {"speed": SPEEDS[options.accuracy]} if "accuracy" in options else {}
-    run(argparse.Namespace(**of_accuracy | vars(options)))
+    return argparse.Namespace(**of_accuracy | vars(options))
 
 
 def _report(options: argparse.Namespace) -> None:
@@ -214,6 +254,30 @@ def _export(options: argparse.Namespace) -> None:
 
     for folder in export(options.folder, options.to, options.out, options.stress, options.frames):
         print(f"export: {folder}")
+
+
+def _submit(options: argparse.Namespace) -> None:
+    from .submit import submit
+
+    submit(_with_speed(options))
+
+
+def _status(options: argparse.Namespace) -> None:
+    from .status import status
+
+    status(options.folder)
+
+
+def _cancel(options: argparse.Namespace) -> None:
+    from .status import cancel
+
+    cancel(options.folder)
+
+
+def _element(options: argparse.Namespace) -> None:
+    from .submit import element
+
+    element(options.folder, options.number)
 
 
 def _check_dependencies() -> None:

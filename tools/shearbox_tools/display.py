@@ -145,7 +145,7 @@ class LineDisplay:
             self._travels[label] = travel
             self._positions[label] = reached
             self._whole.reached(label, reached / travel)
-        self.say(f"{label}: started")
+        self.say(f"{label}: started" + (f" at {reached:.2f} mm" if reached else ""))
 
     def moved(self, label: str, displacement: float) -> None:
         self._positions[label] = displacement

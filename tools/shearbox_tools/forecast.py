@@ -107,9 +107,14 @@ class Forecast:
         return log.seconds / log.steps / self._discs if self._packing.done and log.steps else None
 
 
+def seconds_of_all(forecasts: Sequence[Forecast], jobs: int) -> float:
+    """Time still to go for all of them, with so many phases at a time."""
+    return max(sum(f.seconds for f in forecasts) / jobs, *(f.seconds_with(jobs) for f in forecasts), 0.0)
+
+
 def total(forecasts: Sequence[Forecast], jobs: int) -> str:
     """A line of the time that is left for all of them, what it goes by, and the disk that is needed."""
-    seconds = max(sum(f.seconds for f in forecasts) / jobs, *(f.seconds_with(jobs) for f in forecasts), 0.0)
+    seconds = seconds_of_all(forecasts, jobs)
     paces = sorted({f"{1e9 * f.pace:.0f}" for f in forecasts}, key=float)
     return (
         f"about {duration(seconds)} and {sum(f.bytes for f in forecasts) / 1e6:.0f} MB (an estimate from "

@@ -3,6 +3,8 @@
 
 import argparse
 import os
+import signal
+from collections.abc import Mapping
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
@@ -31,36 +33,72 @@ DEFAULT_STRESSES = (100.0, 200.0, 300.0, 400.0)  # kPa
 
 def run(options: argparse.Namespace) -> None:
     """Carry out the command line; raises ShearboxError when something is wrong or has failed."""
-    out, runs = _asked(vars(options))
-    engine = Engine(getattr(options, "engine", PROGRAM).resolve(), options.ranks)
+    out, runs, engine = prepare(vars(options))
     console = Console()
-    for one in runs:
-        check(one.request)
-    _check_machine(min(options.jobs, sum(len(one.request.stresses) for one in runs)), engine, console)
-    _check_folders(out, runs, vars(options))
+    _note_cores(min(options.jobs, tests_of(runs)), engine.ranks, console)
     forecasts = [Forecast(one.folder, one.request) for one in runs]
     if options.dry_run:
-        _say(console, f"{_forecast_text(runs, forecasts)}\nin all {total(forecasts, options.jobs)}, into {out}")
+        _say(console, f"{forecast_text(runs, forecasts)}\nin all {total(forecasts, options.jobs)}, into {out}")
         return
-    _check_disk(out, sum(forecast.bytes for forecast in forecasts))
+    check_disk(out, forecasts)
     with ExitStack() as stack:
         folders = dict.fromkeys([out, *(one.folder for one in runs)])
         locks = {folder: stack.enter_context(locked(folder)) for folder in folders}
         for one in runs:
             open_folder(one.folder, one.request)
-        _say(console, f"left: {total(forecasts, options.jobs)}")
-        display = make_display(console, _whole(runs, forecasts))
-        try:
-            failures = Campaign(runs, engine, display, locks).run(options.jobs)
-        finally:
-            display.close()
-        problems = _report(out, console) if any(any(_sheared(one)) for one in runs) else []
-    if failures:
-        problems += [failure.message for failure in failures] + ["The other results are kept."]
-    if any(failure.may_pass for failure in failures):
-        problems.append("The same command goes on where this one stopped.")
+        problems = carry_out(runs, engine, options.jobs, locks, console)
+        if any(any(_sheared(one)) for one in runs):
+            problems = _report(out, console) + problems
     if problems:
         raise ShearboxError("\n".join(problems))
+
+
+def prepare(given: dict[str, Any]) -> tuple[Path, list[Run], Engine]:
+    """What is asked for, the folder of all of it, and the engine, all of them checked; nothing is written."""
+    out, runs = _asked(given)
+    for one in runs:
+        check(one.request)
+    engine = Engine(given.get("engine", PROGRAM).resolve(), given["ranks"])
+    for name, value in (("--jobs", min(given.get("jobs", 1), tests_of(runs))), ("--ranks", engine.ranks)):
+        if not 1 <= value <= 256:
+            raise InputError(f"{name} {value}: 1 to 256 are expected")
+    engine.check()
+    missing = [path.name for path in (PARAMETERS, *map(deck, DECKS)) if not path.is_file()]
+    if missing:
+        raise InputError(f"{INPUT} lacks {', '.join(missing)}")
+    _check_folders(out, runs, given)
+    return out, runs, engine
+
+
+def tests_of(runs: list[Run]) -> int:
+    """How many tests they are: one for each stress."""
+    return sum(len(one.request.stresses) for one in runs)
+
+
+def carry_out(runs: list[Run], engine: Engine, jobs: int, locks: Mapping[Path, int], console: Console) -> list[str]:
+    """Work through the runs, whose folders are locked and open; what has failed is returned.
+
+    Asked to end by SIGUSR1, it does so with restart files of now, and raises KeyboardInterrupt.
+    """
+    forecasts = [Forecast(one.folder, one.request) for one in runs]
+    _say(console, f"left: {total(forecasts, jobs)}")
+    display = make_display(console, _whole(runs, forecasts))
+    campaign = Campaign(runs, engine, display, locks)
+    signal.signal(signal.SIGUSR1, lambda *_: campaign.end())
+    try:
+        failures = campaign.run(jobs)
+    finally:
+        display.close()
+    problems = [failure.message for failure in failures]
+    if campaign.stopped:
+        for problem in problems:
+            _say(console, problem)
+        raise KeyboardInterrupt(signal.SIGUSR1)
+    if failures:
+        problems.append("The other results are kept.")
+    if any(failure.may_pass for failure in failures):
+        problems.append("The same command goes on where this one stopped.")
+    return problems
 
 
 def _asked(given: dict[str, Any]) -> tuple[Path, list[Run]]:
@@ -123,7 +161,7 @@ def _check_folders(out: Path, runs: list[Run], given: dict[str, Any]) -> None:
         check_folder(one.folder, one.request)
 
 
-def _forecast_text(runs: list[Run], forecasts: list[Forecast]) -> str:
+def forecast_text(runs: list[Run], forecasts: list[Forecast]) -> str:
     """Each phase of a single run; of several, a line for each, under that of their model."""
     if len(runs) == 1:
         return "\n".join([forecasts[0].head, *forecasts[0].lines])
@@ -169,20 +207,14 @@ def _sheared(one: Run) -> list[float]:
     return [shearing(one.folder, one.request, sigma)[1].displacement() for sigma in one.request.stresses]
 
 
-def _check_machine(jobs: int, engine: Engine, console: Console) -> None:
-    for name, value in (("--jobs", jobs), ("--ranks", engine.ranks)):
-        if not 1 <= value <= 256:
-            raise InputError(f"{name} {value}: 1 to 256 are expected")
-    engine.check()
-    missing = [path.name for path in (PARAMETERS, *map(deck, DECKS)) if not path.is_file()]
-    if missing:
-        raise InputError(f"{INPUT} lacks {', '.join(missing)}")
+def _note_cores(jobs: int, ranks: int, console: Console) -> None:
     cores = len(os.sched_getaffinity(0))
-    if jobs * engine.ranks > cores:
-        console.print(f"note: {jobs} jobs of {engine.ranks} ranks share {cores} cores: fewer would be faster")
+    if jobs * ranks > cores:
+        console.print(f"note: {jobs} jobs of {ranks} ranks share {cores} cores: fewer would be faster")
 
 
-def _check_disk(folder: Path, need: int) -> None:
-    need, free = need + SPARE_BYTES, free_bytes(folder)
+def check_disk(folder: Path, forecasts: list[Forecast]) -> None:
+    """Refuse to begin what will not fit."""
+    need, free = sum(forecast.bytes for forecast in forecasts) + SPARE_BYTES, free_bytes(folder)
     if free < need:
         raise InputError(f"--out {folder}: about {need / 1e6:.0f} MB will be written, {free / 1e6:.0f} MB are free")

@@ -21,6 +21,7 @@
 #include "output/compute_cdem_force.h"
 #include "output/compute_cdem_grid.h"
 #include "output/compute_cdem_limit.h"
+#include "output/compute_cdem_signal.h"
 #include "output/compute_cdem_trm.h"
 #include "output/dump_cdem_local.h"
 #include "output/fix_cdem_trm.h"
@@ -87,6 +88,7 @@ const std::vector<Shearbox::Style> &Shearbox::styles() {
       compute<ComputeCDEMForce>("cdem/force"),
       compute<ComputeCDEMGrid>("cdem/grid"),
       compute<ComputeCDEMLimit>("cdem/limit"),
+      compute<ComputeCDEMSignal>("cdem/signal"),
       compute<ComputeCDEMTRM>("cdem/trm"),
       dump<DumpCDEMLocal>("cdem/local"),
       command<CDEMCreate>("cdem/create"),

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""`shearbox submit`, `status` and `cancel` with a real Slurm that has no accounting database, and an engine that only
+pretends: what happens when things go wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from bench import ROOT, Bench
+from cluster import Cluster, NotThere
+from faults import FAULTS
+
+ENGINE = ["--engine", str(ROOT / "tests" / "tools" / "fake_engine.py")]
+
+
+@pytest.fixture(name="cluster", scope="session")
+def _cluster() -> Iterator[Cluster]:
+    try:
+        cluster = Cluster()
+    except NotThere as why:
+        pytest.skip(f"Slurm: {why}")
+    yield cluster
+    cluster.stop()
+
+
+@pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.__name__)
+def test_no_work_is_lost(fault: Callable[[Bench], None], cluster: Cluster, tmp_path: Path) -> None:
+    bench = Bench(cluster, tmp_path, ENGINE, FAKE_SECONDS=str(FAULTS[fault]), FAKE_FAIL="seed_3/packed")
+    try:
+        fault(bench)
+    finally:
+        print("\n".join(bench.diary))
+        cluster.clear()

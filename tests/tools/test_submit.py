@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""`shearbox submit` without a cluster: what is in the scripts of jobs, and what is refused."""
+
+import os
+import shlex
+import subprocess
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from shearbox_tools.cluster import Cluster, read_cluster
+from shearbox_tools.errors import InputError
+from shearbox_tools.layout import Layout
+from shearbox_tools.models import find_model
+from shearbox_tools.request import Request
+from shearbox_tools.schedulers import Job, find_scheduler
+from shearbox_tools.specimens import Run, planned
+
+ROOT = Path(__file__).resolve().parents[2]
+SHEARBOX = ROOT / "tools" / "shearbox"
+MODEL = "TypeA_10x5_4-8_1-circle_350"
+REQUEST = Request(find_model(MODEL), (100.0, 200.0, 300.0, 400.0))
+AWKWARD = "a b 'c' \"d\" $HOME `date` %a ;é"
+SLURM = find_scheduler("slurm")
+
+
+def submit(folder: Path, *options: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    command = [str(SHEARBOX), "submit", MODEL, "--out", str(folder), "--engine", "/bin/true", *options]
+    return subprocess.run(command, env={**os.environ, **environment}, capture_output=True, text=True)
+
+
+def specimens(count: int) -> list[Run]:
+    return planned(Path("results"), REQUEST, range(1, count + 1), False)
+
+
+def options(script: str) -> set[str]:
+    return {line.removeprefix("#SBATCH ") for line in script.splitlines() if line.startswith("#SBATCH ")}
+
+
+JOB = Job(
+    "name", ["shearbox", "element", "results"], "jobs/tests", minutes=1502, elements=8, cores=96, nodes=2, notice=90
+)
+
+
+def test_the_script_of_an_array() -> None:
+    cluster = Cluster(partition="p", account="a", options=("--mem=1G",), commands=("module load x",))
+    assert SLURM.script(JOB, cluster).splitlines() == [
+        "#!/bin/bash",
+        "#SBATCH --job-name=name",
+        "#SBATCH --array=1-8",
+        "#SBATCH --output=jobs/tests_%a.log",
+        "#SBATCH --open-mode=append",
+        "#SBATCH --nodes=2",
+        "#SBATCH --ntasks=96",
+        "#SBATCH --time=1-01:02",
+        "#SBATCH --signal=B:USR1@90",
+        "#SBATCH --requeue",
+        "#SBATCH --partition=p",
+        "#SBATCH --account=a",
+        "#SBATCH --mem=1G",
+        "module load x",
+        'exec shearbox element results "$SLURM_ARRAY_TASK_ID"',
+    ]
+    once = SLURM.script(replace(JOB, elements=0, notice=0), Cluster())
+    assert not [
+        line for line in once.splitlines() if "array" in line.lower() or "signal" in line or "partition" in line
+    ]
+    assert "#SBATCH --output=jobs/tests.log" in once and once.endswith("exec shearbox element results\n")
+
+
+def test_words_reach_the_command_as_they_are(tmp_path: Path) -> None:
+    """A shell runs the script; its command is one that says what it is given."""
+    words = [AWKWARD, "", "-n", "*", "\\", "line\nline"]
+    job = replace(JOB, command=["/usr/bin/python3", "-c", "import sys; print(sys.argv[1:])", *words])
+    script = tmp_path / "tests.sh"
+    script.write_text(SLURM.script(job, Cluster()), encoding="utf-8")
+    done = subprocess.run(
+        ["bash", script], env={"SLURM_ARRAY_TASK_ID": "3"}, capture_output=True, text=True, check=True
+    )
+    assert done.stdout == f"{[*words, '3']}\n"
+
+
+def test_a_dry_run_prints_the_scripts_and_writes_nothing(tmp_path: Path) -> None:
+    folder = tmp_path / AWKWARD
+    done = submit(folder, "--seeds", "8", "--dry-run", PATH="/usr/bin")
+    assert done.returncode == 0, done.stderr
+    first = done.stdout.splitlines()[0]
+    assert first.startswith("8 jobs of 1 specimen, 4 tests at a time on 4 cores: about ")
+    commands = [shlex.split(line) for line in done.stdout.splitlines() if line.startswith("exec ")]
+    assert [command[3:5] for command in commands] == [["element", str(folder)], ["report", str(folder)]]
+    assert not folder.exists()
+
+
+def test_without_a_batch_system_nothing_is_begun(tmp_path: Path) -> None:
+    """And nothing is left that stands in the way of the next command."""
+    (tmp_path / "bin").mkdir()
+    (tmp_path / "bin" / "squeue").symlink_to("/bin/true")
+    failed = submit(tmp_path / "results", PATH=str(tmp_path / "bin"))
+    assert failed.returncode == 1
+    assert "shearbox: sbatch: No such file or directory; is this a machine of the cluster?" in failed.stderr
+    failed = submit(tmp_path / "other", PATH=str(tmp_path))
+    assert "shearbox: squeue: No such file" in failed.stderr and not (tmp_path / "other").exists()
+
+
+@pytest.mark.parametrize(
+    "runs, cores, asked, ranks, elements, at_a_time, nodes",
+    [
+        (8, 0, None, 1, [1] * 8, 4, 1),  # one specimen a job, a core for each stress
+        (8, 48, None, 1, [8], 32, 1),  # all fit on a node
+        (13, 48, None, 1, [7, 6], 28, 1),  # of 12 that would fit, shared evenly
+        (8, 2, None, 1, [1] * 8, 2, 1),
+        (8, 0, 8, 1, [2] * 4, 8, 1),
+        (8, 48, None, 12, [1] * 8, 4, 1),
+        (8, 48, None, 96, [1] * 8, 1, 2),  # large: one test after the other, on two nodes
+        (8, 48, 1, 96, [1] * 8, 1, 2),
+        (1, 48, None, 1, [1], 4, 1),
+    ],
+)
+def test_what_shares_a_job(runs, cores, asked, ranks, elements, at_a_time, nodes) -> None:
+    layout = Layout(specimens(runs), Cluster(cores=cores), asked, ranks)
+    assert [len(element) for element in layout.elements] == elements
+    assert (layout.at_a_time, layout.cores, layout.nodes) == (at_a_time, at_a_time * ranks, nodes)
+
+
+def test_a_limit_is_twice_the_estimate_and_ten_minutes_but_none_is_longer_than_allowed() -> None:
+    """A specimen of 350 discs: 150,000 steps of packing, and 4 s of test for each stress, all at 25 ns a disc and step."""
+    layout = Layout(specimens(1), Cluster(), None, 1)
+    assert layout.seconds == pytest.approx(layout.forecasts[0][0].seconds_with(4))
+    assert 60 * layout.minutes == pytest.approx(2 * layout.seconds + 600 + layout.notice, abs=600)
+    assert 60 * layout.minutes > 2 * layout.seconds + 600 + layout.notice and layout.minutes % 10 == 0
+    assert Layout(specimens(1), Cluster(hours=0.1), None, 1).minutes == 6
+    with pytest.raises(InputError, match="hours = 0.01: a job needs 6. s to end, and must last 3 times as long"):
+        Layout(specimens(1), Cluster(hours=0.01), None, 1)
+
+
+def test_what_does_not_fit_on_a_node_is_refused() -> None:
+    with pytest.raises(InputError, match="--jobs 8: 6 of 8 ranks fit on the 48 cores of a node"):
+        Layout(specimens(8), Cluster(cores=48), 8, 8)
+
+
+def test_the_example_of_a_cluster() -> None:
+    cluster = read_cluster(ROOT / "examples" / "cluster" / "cluster.toml")
+    assert all(getattr(cluster, name) for name in vars(cluster)), "it shows all there is"
+    assert SLURM.script(JOB, cluster).count("#SBATCH --mem-per-cpu=1G") == 1
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("cores = 0", "cores = 0: a positive number that is whole is expected"),
+        ("cores = 1.5", "cores = 1.5: a positive number that is whole is expected"),
+        ("cores = true", "cores = True: a positive number that is whole is expected"),
+        ("hours = inf", "hours = inf: a positive number is expected"),
+        ("hours = '24:00'", "hours = '24:00': a positive number is expected"),
+        ("partition = 'a b'", "partition = 'a b': a name without blanks and quotes is expected"),
+        ("options = '--mem=1G'", "options = '--mem=1G': a list of lines is expected"),
+        ('commands = ["a\\nb"]', "a list of lines is expected"),
+        ("queue = 'x'", "queue: scheduler, partition, account, cores, hours, options, commands are expected"),
+        ("cores", "Expected '=' after a key"),
+        ("scheduler = 'pbs'", "scheduler pbs: slurm is expected"),
+    ],
+)
+def test_what_a_file_of_a_cluster_may_not_say(tmp_path: Path, text: str, message: str) -> None:
+    path = tmp_path / "cluster.toml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError) as refused:
+        find_scheduler(read_cluster(path).scheduler)
+    assert message in str(refused.value)
+
+
+def test_a_file_of_a_cluster_that_is_not_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("HOME", str(tmp_path))
+    assert read_cluster(None) == Cluster()
+    with pytest.raises(InputError, match="none.toml: No such file"):
+        read_cluster(tmp_path / "none.toml")
+    (tmp_path / ".config" / "shearbox").mkdir(parents=True)
+    (tmp_path / ".config" / "shearbox" / "cluster.toml").write_text("cores = 3", encoding="utf-8")
+    assert read_cluster(None).cores == 3
+
+
+def test_a_folder_of_which_nothing_was_submitted(tmp_path: Path) -> None:
+    for command in (["status"], ["cancel"], ["element"]):
+        done = subprocess.run(
+            [SHEARBOX, *command, tmp_path, *["1"][: command == ["element"]]], capture_output=True, text=True
+        )
+        assert done.returncode == 2
+        assert "nothing was submitted of it, there is no jobs/jobs.json" in done.stderr

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What was submitted of a folder, as it is kept in jobs/ beside the results, with the scripts and logs of the jobs."""
+
+import hashlib
+import json
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from .errors import InputError, ShearboxError
+from .files import write_json
+from .request import recorded
+from .specimens import Run
+
+JOBS = "jobs"
+TESTS, REPORT = "tests", "report"  # the two jobs, as their scripts and logs are called
+_RECORD = "jobs.json"
+
+
+@dataclass(frozen=True)
+class Jobs:
+    """The folders of the runs of each element, relative to that of all, and how they are carried out."""
+
+    scheduler: str
+    name: str
+    elements: list[list[str]]
+    at_a_time: int  # tests of an element
+    ranks: int
+    engine: str
+
+    def runs(self, folder: Path, element: int) -> list[Run]:
+        """Those of an element, from 1 on, as they are recorded in their folders."""
+        if not 1 <= element <= len(self.elements):
+            raise InputError(
+                f"element {element}: 1 to {len(self.elements)} are expected, see {folder / JOBS / _RECORD}"
+            )
+        return [Run(folder / name, recorded(folder / name), name.strip(".")) for name in self.elements[element - 1]]
+
+    def write(self, folder: Path) -> None:
+        """Keep it in a folder."""
+        write_json(folder / JOBS / _RECORD, asdict(self))
+
+
+def read_jobs(folder: Path) -> Jobs:
+    """What was submitted of a folder."""
+    path = folder / JOBS / _RECORD
+    try:
+        return Jobs(**json.loads(path.read_text(encoding="utf-8")))
+    except FileNotFoundError as error:
+        raise InputError(f"{folder}: nothing was submitted of it, there is no {JOBS}/{_RECORD}") from error
+    except (OSError, ValueError, TypeError) as error:
+        raise ShearboxError(f"{path}: this is not the record of a submission: {error}") from error
+
+
+def name_of(folder: Path) -> str:
+    """By which its jobs, and no others, are known to the batch system."""
+    return f"shearbox_{hashlib.sha256(str(folder.absolute()).encode()).hexdigest()[:8]}"
