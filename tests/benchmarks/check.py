@@ -97,12 +97,14 @@ def compare(name: str, beds: Path, work: Path) -> list[Comparison]:
 
 def shear(folder: Path) -> dict[str, float]:
     """Means over the rows of shear.dat, and the height of the lid at the end."""
-    _, _, tau, sigma, lid, upper, *_ = np.loadtxt(folder / "shear.dat", ndmin=2).T
+    lines = (folder / "shear.dat").read_text().splitlines()
+    names = [name.removeprefix("v_") for name in [line for line in lines if line.startswith("#")][-1].lstrip("# ").split()]
+    table = dict(zip(names, np.loadtxt(lines, ndmin=2).T))
     return {
-        "shear stress (kPa)": tau.mean(),
-        "shear stress, upper half (kPa)": upper.mean(),
-        "normal stress (kPa)": sigma.mean(),
-        "rise of the lid (mm)": lid[-1],
+        "shear stress (kPa)": table["tau_kPa"].mean(),
+        "shear stress, upper half (kPa)": table["tau_upper_kPa"].mean(),
+        "normal stress (kPa)": table["sigma_kPa"].mean(),
+        "rise of the lid (mm)": table["lid_mm"][-1],
     }
 
 

@@ -428,7 +428,7 @@ pair_coeff * *
 REFUSED: dict[str, tuple[str, Sequence[str]]] = {
     "unknown-field": ("compute c all cdem/contacts fn force", ["contacts c: unknown field force", "id1 id2 disc1"]),
     "trm-argument": ("compute c all cdem/trm 7", ["Compute cdem/trm c: unknown argument 7"]),
-    "unknown-disc-field": ("compute c all cdem/discs x w", ["discs c: unknown field w; allowed: id disc x y z radius"]),
+    "unknown-disc-field": ("compute c all cdem/discs x w", ["discs c: unknown field w; allowed: id disc x y radius"]),
     "energy-argument": ("compute c all cdem/energy 7", ["Compute cdem/energy c: unknown argument 7"]),
     "trm-unfixed": ("compute c all cdem/trm\nunfix CDEM_TRM_c\nrun 0", ["trm c: its fix CDEM_TRM_c is gone"]),
     "discs-no-pair": (STOCK + "compute c all cdem/discs\nrun 0", ["discs c needs pair_style cdem"]),
