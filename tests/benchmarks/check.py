@@ -98,7 +98,9 @@ def compare(name: str, beds: Path, work: Path) -> list[Comparison]:
 def shear(folder: Path) -> dict[str, float]:
     """Means over the rows of shear.dat, and the height of the lid at the end."""
     lines = (folder / "shear.dat").read_text().splitlines()
-    names = [name.removeprefix("v_") for name in [line for line in lines if line.startswith("#")][-1].lstrip("# ").split()]
+    names = [
+        name.removeprefix("v_") for name in [line for line in lines if line.startswith("#")][-1].lstrip("# ").split()
+    ]
     table = dict(zip(names, np.loadtxt(lines, ndmin=2).T))
     return {
         "shear stress (kPa)": table["tau_kPa"].mean(),
