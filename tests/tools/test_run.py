@@ -13,7 +13,8 @@ from pathlib import Path
 
 import pytest
 from shearbox_tools import cli
-from shearbox_tools.presets import SPEEDS
+from shearbox_tools.named import model_text
+from shearbox_tools.presets import DENSITIES, SPEEDS
 from shearbox_tools.request import Request
 
 TESTS = Path(__file__).resolve().parent
@@ -280,9 +281,10 @@ def test_all_problems_are_named_at_once(folder):
 @pytest.mark.parametrize(
     "name, suggestion",
     [
-        ("TypeA_10x5_4-8_1-circle_35", "TypeA_10x5_4-8_1-circle_350"),
+        ("TypeA_10x5_4-8_1-circle-350", "TypeA_10x5_4-8_1-circle_350"),
         ("typeb", "TypeB_15x5_4-8_1-circle_550"),
         ("sand", "'shearbox models' lists them"),
+        ("TypeA_10x5_4-8_2-circle_350", "DISCS of a grain, 1 or 3"),
     ],
 )
 def test_an_unknown_model_gets_suggestions(folder, name, suggestion):
@@ -290,6 +292,25 @@ def test_an_unknown_model_gets_suggestions(folder, name, suggestion):
     assert refused.returncode == 2
     assert f"unknown model '{name}'" in refused.stderr
     assert suggestion in refused.stderr
+
+
+def test_a_model_made_of_its_name(folder, tmp_path):
+    """Its file is in the folder of the run, which may be moved, and goes on there."""
+    name = "TypeC_12.5x5_4-8_1-circle_auto"
+    assert shearbox(folder, "--stress", "100", "--density", "loose", model=name).returncode == 0
+    assert (folder / f"{name}.in").read_text(encoding="utf-8") == model_text(name, DENSITIES["loose"])
+    assert summary(folder)["parameters"]["phi_packing"] == "45"
+    assert summary(folder)["model"] == name
+    moved = folder.rename(tmp_path / "moved")
+    further = [SHEARBOX, "run", str(moved), "--stress", "200", "--dry-run", "--engine", str(TESTS / "fake_engine.py")]
+    assert subprocess.run(further, capture_output=True, timeout=120).returncode == 0
+    other = shearbox(moved, "--stress", "100", model=name)
+    assert other.returncode == 2 and "model ngrains" in other.stderr and "phi_packing" in other.stderr
+
+
+def test_density_is_given_once(folder):
+    refused = shearbox(folder, "--density", "loose", "--set", "phi_packing=3")
+    assert refused.returncode == 2 and "--density: --set phi_packing is given, too" in refused.stderr
 
 
 def test_a_model_file_of_ones_own(folder, tmp_path):
