@@ -6,6 +6,7 @@ import fcntl
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import time
@@ -357,6 +358,21 @@ def test_a_folder_of_another_request_is_refused(used, options, model, difference
     assert difference in refused.stderr
     assert refused.stderr.count(" asked for") == (1 if options else 3), "only what differs"
     assert {path: path.stat().st_mtime_ns for path in used.rglob("*")} == before
+
+
+@pytest.mark.parametrize("asked", ["as before", "as it was asked for"])
+def test_what_was_packed_by_other_decks_does_not_go_on(used, tmp_path, asked):
+    """Their parameters.in did not have the friction of packing, which was done in another way."""
+    folder = tmp_path / "older"
+    shutil.copytree(used, folder)
+    record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+    del record["identity"]["parameters"]["phi_packing"]
+    (folder / "run.json").write_text(json.dumps(record), encoding="utf-8")
+    words = [SHEARBOX, "run", *([MODEL, "--out", folder] if asked == "as before" else [folder]), "--stress", "200"]
+    refused = subprocess.run([*map(str, words), "--dry-run"], capture_output=True, text=True, timeout=120)
+    assert refused.returncode == 2
+    assert "phi_packing: - there, 0 asked for" in refused.stderr
+    assert "Another version began it" in refused.stderr
 
 
 def test_a_folder_of_something_else_is_refused(folder):

@@ -65,9 +65,11 @@ def check_folder(folder: Path, request: Request) -> set[float]:
     """Refuse a folder of another request, or of something else; the stresses (kPa) that an earlier run asked for."""
     if (folder / RECORD).exists():
         known = read_record(folder)
-        differences = _differences(known["identity"], _identity(request))
-        if differences:
+        there, asked = known["identity"], _identity(request)
+        if differences := _differences(there, asked):
             advice = f"To go on with what is there: shearbox run {shlex.quote(str(folder))}. Else take another --out."
+            if there["parameters"].keys() != asked["parameters"].keys():
+                advice = f"Another version began it, with other variables in {PARAMETERS.name}. Take another --out."
             raise InputError(f"{folder} holds another run:\n" + "\n".join([*differences, advice]))
         return set(known["stresses"])
     if folder.exists() and not folder.is_dir():
