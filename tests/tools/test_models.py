@@ -5,11 +5,13 @@ import math
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from shearbox_tools.errors import ShearboxError
+from shearbox_tools.errors import InputError, ShearboxError
 from shearbox_tools.grains import area_over_largest
-from shearbox_tools.models import INPUT, all_models, find_model, read_model, read_variables
+from shearbox_tools.models import INPUT, all_models, find_model, model_files, read_model, read_variables
+from shearbox_tools.named import model_text
 from shearbox_tools.parameters import parameters
 from shearbox_tools.presets import LAWS
 from shearbox_tools.table import print_models
@@ -31,6 +33,45 @@ def test_the_name_encodes_the_numbers(model):
     assert model.ngrains == int(grains)
     assert model.discs == int(discs)
     assert model.power == (0 if discs == "3" else -3) or equal
+
+
+@pytest.mark.parametrize("path", model_files(), ids=lambda path: path.stem)
+def test_the_name_alone_makes_the_same_model(path, tmp_path):
+    made = tmp_path / path.name
+    made.write_text(model_text(path.stem), encoding="utf-8")
+    assert read_model(made).variables == read_model(path).variables
+
+
+@pytest.mark.parametrize("discs, sizes", [("1", "2-4"), ("1", "T-2"), ("3", "2-8")])
+def test_auto_is_so_many_that_their_area_fills_the_box(discs, sizes):
+    """In a box so large that walls do not count, and with it: the solid fraction is between those of a square and of a
+    triangular lattice of discs, pi/4 and 0.907."""
+    model = find_model(f"TypeD_1000x400_{sizes}_{discs}-circle_auto")
+    shares = (np.arange(model.ngrains) + 0.5) / model.ngrains
+    sizes = (
+        model.dmin + shares * (model.dmax - model.dmin)
+        if discs == "3"
+        else model.dmin / np.sqrt(1 - shares * (1 - (model.dmin / model.dmax) ** 2))
+    )
+    area = int(discs) * np.pi / 4 * np.sum(sizes**2)
+    assert math.pi / 4 < area / (model.width * 2 * model.half_height) < 0.907
+    narrow = find_model(model.name.replace("1000x400", "10x400"))
+    assert 0.95 * model.ngrains / 100 < narrow.ngrains < model.ngrains / 100
+
+
+@pytest.mark.parametrize(
+    "name, message",
+    [
+        ("TypeA_10x5_8-4_1-circle_350", "the least size first. Names are TypeX_WIDTHxHALF-HEIGHT"),
+        ("TypeA_0x5_4-8_1-circle_350", "lengths above 0 are expected"),
+        ("TypeA_10x5_2-9_1-circle_auto", "auto is for sizes up to 1 : 4"),
+        ("TypeE_10x5_4-8_1-circle_350", "unknown model"),
+        ("TypeA_10x5_4-8_1-circle_many", "COUNT of grains, or auto"),
+    ],
+)
+def test_a_name_that_cannot_be_meant_says_what_is_allowed(name, message):
+    with pytest.raises(InputError, match=re.escape(message)):
+        find_model(name)
 
 
 def test_the_table_names_them_all(capsys):

@@ -6,6 +6,7 @@ import fcntl
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import time
@@ -13,7 +14,8 @@ from pathlib import Path
 
 import pytest
 from shearbox_tools import cli
-from shearbox_tools.presets import SPEEDS
+from shearbox_tools.named import model_text
+from shearbox_tools.presets import DENSITIES, SPEEDS
 from shearbox_tools.request import Request
 from shearbox_tools.restarts import step_of
 
@@ -319,9 +321,10 @@ def test_all_problems_are_named_at_once(folder):
 @pytest.mark.parametrize(
     "name, suggestion",
     [
-        ("TypeA_10x5_4-8_1-circle_35", "TypeA_10x5_4-8_1-circle_350"),
+        ("TypeA_10x5_4-8_1-circle-350", "TypeA_10x5_4-8_1-circle_350"),
         ("typeb", "TypeB_15x5_4-8_1-circle_550"),
         ("sand", "'shearbox models' lists them"),
+        ("TypeA_10x5_4-8_2-circle_350", "DISCS of a grain, 1 or 3"),
     ],
 )
 def test_an_unknown_model_gets_suggestions(folder, name, suggestion):
@@ -329,6 +332,25 @@ def test_an_unknown_model_gets_suggestions(folder, name, suggestion):
     assert refused.returncode == 2
     assert f"unknown model '{name}'" in refused.stderr
     assert suggestion in refused.stderr
+
+
+def test_a_model_made_of_its_name(folder, tmp_path):
+    """Its file is in the folder of the run, which may be moved, and goes on there."""
+    name = "TypeC_12.5x5_4-8_1-circle_auto"
+    assert shearbox(folder, "--stress", "100", "--density", "loose", model=name).returncode == 0
+    assert (folder / f"{name}.in").read_text(encoding="utf-8") == model_text(name, DENSITIES["loose"])
+    assert summary(folder)["parameters"]["phi_packing"] == "45"
+    assert summary(folder)["model"] == name
+    moved = folder.rename(tmp_path / "moved")
+    further = [SHEARBOX, "run", str(moved), "--stress", "200", "--dry-run", "--engine", str(TESTS / "fake_engine.py")]
+    assert subprocess.run(further, capture_output=True, timeout=120).returncode == 0
+    other = shearbox(moved, "--stress", "100", model=name)
+    assert other.returncode == 2 and "model ngrains" in other.stderr and "phi_packing" in other.stderr
+
+
+def test_density_is_given_once(folder):
+    refused = shearbox(folder, "--density", "loose", "--set", "phi_packing=3")
+    assert refused.returncode == 2 and "--density: --set phi_packing is given, too" in refused.stderr
 
 
 def test_a_model_file_of_ones_own(folder, tmp_path):
@@ -375,6 +397,21 @@ def test_a_folder_of_another_request_is_refused(used, options, model, difference
     assert difference in refused.stderr
     assert refused.stderr.count(" asked for") == (1 if options else 3), "only what differs"
     assert {path: path.stat().st_mtime_ns for path in used.rglob("*")} == before
+
+
+@pytest.mark.parametrize("asked", ["as before", "as it was asked for"])
+def test_what_was_packed_by_other_decks_does_not_go_on(used, tmp_path, asked):
+    """Their parameters.in did not have the friction of packing, which was done in another way."""
+    folder = tmp_path / "older"
+    shutil.copytree(used, folder)
+    record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+    del record["identity"]["parameters"]["phi_packing"]
+    (folder / "run.json").write_text(json.dumps(record), encoding="utf-8")
+    words = [SHEARBOX, "run", *([MODEL, "--out", folder] if asked == "as before" else [folder]), "--stress", "200"]
+    refused = subprocess.run([*map(str, words), "--dry-run"], capture_output=True, text=True, timeout=120)
+    assert refused.returncode == 2
+    assert "phi_packing: - there, 0 asked for" in refused.stderr
+    assert "Another version began it" in refused.stderr
 
 
 def test_a_folder_of_something_else_is_refused(folder):

@@ -13,7 +13,7 @@ from types import FrameType
 
 from . import __version__
 from .errors import InputError, ShearboxError
-from .presets import FORMATS, LAWS, REFERENCE, SPEEDS
+from .presets import DENSITIES, FORM, FORMATS, LAWS, PACKING_FRICTION, REFERENCE, SPEEDS
 
 Commands = argparse._SubParsersAction  # argparse has no public name for it
 DEPENDENCIES = {"numpy": "python3-numpy", "scipy": "python3-scipy", "matplotlib": "python3-matplotlib",
@@ -55,6 +55,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"shearbox {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_models(commands)
+    _add_model(commands)
     _add_parameters(commands)
     _add_run(commands)
     _add_report(commands)
@@ -67,6 +68,18 @@ def make_parser() -> argparse.ArgumentParser:
 def _add_models(commands: Commands) -> None:
     models = commands.add_parser("models", help="list the models", description="The models of the paper's Table 1.")
     models.set_defaults(command=_models)
+
+
+def _add_model(commands: Commands) -> None:
+    model = commands.add_parser(
+        "model",
+        help="print the file of a model that is made of its name",
+        description="The file of a model of any box, for the decks: 'shearbox model NAME > NAME.in', then '-var models . -var "
+        "model NAME'. 'shearbox run NAME' makes it by itself.",
+    )
+    model.add_argument("name", metavar="NAME", help=FORM)
+    model.add_argument("--density", choices=list(DENSITIES), default="dense", help="of the packing, for COUNT auto")
+    model.set_defaults(command=_model)
 
 
 def _add_parameters(commands: Commands) -> None:
@@ -93,8 +106,9 @@ def _add_run(commands: Commands) -> None:
 def _add_what_to_run(run: argparse.ArgumentParser) -> None:
     """The options that `run` and `submit` share."""
     run.add_argument("model", metavar="MODEL",
-                     help="name of a model, as 'shearbox models' lists them; or the path of a model file, NAME.in; or the "
-                     "folder of earlier runs, which go on as they were asked for")  # fmt: skip
+                     help="name of a model, as 'shearbox models' lists them, or of any other box, as 'shearbox model --help' has "
+                     "them; or the path of a model file, NAME.in; or the folder of earlier runs, which go on as they were asked "
+                     "for")  # fmt: skip
     run.add_argument("--out", metavar="DIR", type=Path, help="folder of the results; needed unless MODEL is one")
     run.add_argument("--stress", metavar="KPA", type=_stress, nargs="+", action="extend",
                      help="normal stresses, kPa (default: 100 200 300 400)")  # fmt: skip
@@ -110,6 +124,9 @@ def _add_what_to_run(run: argparse.ArgumentParser) -> None:
     run.add_argument("--independent", action="store_true",
                      help="with --seeds: a packing of its own for each stress, in DIR/seed_N_KPAkPa; its seed is 1000000 N + "
                      "100 KPA")  # fmt: skip
+    run.add_argument("--density", choices=list(DENSITIES),
+                     help=f"chooses {PACKING_FRICTION}, the friction angle while grains are packed: "
+                     + ", ".join(f"{name} {angle:g}°" for name, angle in DENSITIES.items()) + " (default: dense)")  # fmt: skip
     run.add_argument("--law", choices=LAWS, help=f"contact law (default: {LAWS[0]})")
     run.add_argument("--dt", metavar="DT",
                      help="time step, s (default: auto, from the stability limit of the contacts)")  # fmt: skip
@@ -223,6 +240,15 @@ def _models(_: argparse.Namespace) -> None:
     from .table import print_models
 
     print_models()
+
+
+def _model(options: argparse.Namespace) -> None:
+    from .named import model_text
+
+    text = model_text(options.name, DENSITIES[options.density])
+    if text is None:
+        raise InputError(f"no model can be made of '{options.name}'. Names are {FORM}")
+    print(text, end="")
 
 
 def _parameters(_: argparse.Namespace) -> None:

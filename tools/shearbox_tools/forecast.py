@@ -18,7 +18,7 @@ from .request import Request
 
 SECONDS_PER_DISC_AND_STEP = 25e-9
 SECONDS_PER_DISC_AND_FRAME = 18e-6
-STEPS = {PACK: 150_000, CONSOLIDATE: 10_000}  # for each disc of a grain: 112,000 to 200,000, and 4,000 to 20,000
+STEPS = {PACK: 40_000, CONSOLIDATE: 10_000}  # for each disc of a grain: 22,000 to 80,000, and 4,000 to 20,000
 
 
 class Forecast:

@@ -11,7 +11,10 @@ import numpy as np
 
 from .errors import InputError, ShearboxError
 from .grains import area_over_largest, discs_of, read_template
+from .named import model_text
 from .numerals import number
+from .presets import FORM
+from .solid import Grading
 
 ROOT = Path(__file__).resolve().parents[2]
 INPUT = ROOT / "input"
@@ -44,6 +47,7 @@ class Model:
     ngrains: int
     shape: str
     further: dict[str, str] = field(default_factory=dict)  # variables that the tools do not need
+    text: str | None = None  # of the file, if it is yet to be written: a model that is made of its name
 
     @property
     def name(self) -> str:
@@ -63,9 +67,7 @@ class Model:
     @cached_property
     def half_heights(self) -> float:
         """How high the packed grains will be, over the height of one half of the box; to some percent."""
-        shares = (np.arange(self.ngrains) + 0.5) / self.ngrains  # as src/core/fill.h draws diameters
-        p, ratio = self.power + 1, self.dmax / self.dmin
-        diameters = self.dmin * (ratio ** shares if abs(p) < 1e-12 else (1 + shares * (ratio**p - 1)) ** (1 / p))
+        diameters = Grading(self.dmin, self.dmax, self.power).diameters(self.ngrains)
         area = area_over_largest(self.shape) * np.sum(diameters**2)
         return float(area / (SOLID_FRACTION * self.width * self.half_height))
 
@@ -82,7 +84,12 @@ def read_comments(path: Path) -> dict[str, str]:
 
 def read_model(path: Path, settings: dict[str, str] | None = None) -> Model:
     """The model in a file, with other values for some of its variables."""
-    variables = _model_variables(path) | (settings or {})
+    return _model(path, _text(path), settings, None)
+
+
+def _model(path: Path, text: str, settings: dict[str, str] | None, made: str | None) -> Model:
+    """The model that a text describes; `made` is the text again if the file is yet to be written."""
+    variables = _model_variables(path, text) | (settings or {})
     missing = [name for name in (*_NUMBERS, "shape") if name not in variables]
     if missing:
         raise ShearboxError(f"{path}: there is no variable {', '.join(missing)} in it")
@@ -96,13 +103,13 @@ def read_model(path: Path, settings: dict[str, str] | None = None) -> Model:
     if ngrains != numbers.pop("ngrains"):
         raise ShearboxError(f"{path}: ngrains: a whole number is expected")
     shape = read_template(variables.pop("shape"), path)
-    return Model(path=path, ngrains=ngrains, shape=shape, further=variables, **numbers)
+    return Model(path=path, ngrains=ngrains, shape=shape, further=variables, text=made, **numbers)
 
 
-def _model_variables(path: Path) -> dict[str, str]:
+def _model_variables(path: Path, text: str) -> dict[str, str]:
     """The variables of a model, which has nothing else: what LAMMPS would read otherwise than we do is refused."""
     variables: dict[str, str] = {}
-    for line in lines(path):
+    for line in _joined(text):
         if not line.split("#")[0].strip(" \t\r"):
             continue
         found = _VARIABLE.fullmatch(line)
@@ -127,25 +134,22 @@ def all_models(folder: Path = INPUT / "models") -> list[Model]:
     return sorted((read_model(path) for path in model_files(folder)), key=table_order)
 
 
-def model_file(name: str) -> Path:
-    """The file of the model of that name, or of that path; or an error that suggests some."""
-    if name.endswith(SUFFIX):
-        return Path(name)
-    known = {path.stem: path for path in model_files()}
-    if name in known:
-        return known[name]
-    close = [n for n in known if name.lower() in n.lower()] or difflib.get_close_matches(name, known, 3, 0.5)
-    advice = f"'shearbox models' lists them; a file of your own ends in {SUFFIX}"
-    hint = "Did you mean\n  " + "\n  ".join(close[:4]) if close else advice
-    raise InputError(f"unknown model '{name}'. {hint}")
+def find_model(name: str, settings: dict[str, str] | None = None, friction: float = 0.0) -> Model:
+    """The model of that name, or in that file, with other values for some of its variables; or an error that helps.
 
-
-def find_model(name: str, settings: dict[str, str] | None = None) -> Model:
-    """The model of that name, or in that file, with other values for some of its variables."""
+    friction: friction angle (degrees) with which grains are packed, for names that leave their number to us.
+    """
     try:
-        return read_model(model_file(name), settings)
+        known = {path.stem: path for path in model_files()}
+        if name.endswith(SUFFIX) or name in known:
+            return read_model(known.get(name, Path(name)), settings)
+        if text := model_text(name, friction):
+            return _model(Path(name + SUFFIX), text, settings, text)
     except ShearboxError as error:
         raise InputError(str(error)) from error
+    close = [n for n in known if name.lower() in n.lower()] or difflib.get_close_matches(name, known, 3, 0.5)
+    hint = "Did you mean\n  " + "\n  ".join(close[:4]) + "\n" if close else "'shearbox models' lists them. "
+    raise InputError(f"unknown model '{name}'. {hint}A name may also be {FORM}. A file of your own ends in {SUFFIX}")
 
 
 def table_order(model: Model) -> tuple[bool, bool, float, float]:
@@ -160,10 +164,18 @@ def definitions(path: Path) -> list[tuple[str, str, str, str]]:
 
 def lines(path: Path) -> list[str]:
     """Lines as LAMMPS takes them: & continues one."""
+    return _joined(_text(path))
+
+
+def _text(path: Path) -> str:
     try:
         text = path.read_text(encoding="utf-8", errors="replace")
     except OSError as error:
         raise ShearboxError(f"{path}: {error.strerror}") from error
     if "\0" in text:
         raise ShearboxError(f"{path}: this is not text, there are null bytes in it")
+    return text
+
+
+def _joined(text: str) -> list[str]:
     return re.sub(r"&[ \t\r]*\n", "", text).split("\n")

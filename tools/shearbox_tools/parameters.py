@@ -24,6 +24,7 @@ _NEEDED = (
     "law",
     "dt",
     "dt_max",
+    "phi_packing",
 )  # by us
 
 

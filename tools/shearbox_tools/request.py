@@ -4,12 +4,12 @@
 import json
 import math
 import shlex
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, NoReturn
 
 from .errors import InputError, ShearboxError
-from .files import DRAFT, LOCK, PACKED, RECORD, write_json
+from .files import DRAFT, LOCK, PACKED, RECORD, write_json, write_text
 from .models import PARAMETERS, Model, find_model, read_variables
 from .parameters import canonical, of_model, parameters
 from .presets import STRESSES
@@ -55,13 +55,21 @@ class Request:
         }
 
 
+def placed(request: Request, folder: Path) -> Request:
+    """The same; the file of a model that is made of its name is in the folder of the run."""
+    model = request.model
+    return replace(request, model=replace(model, path=folder / model.path.name)) if model.text is not None else request
+
+
 def check_folder(folder: Path, request: Request) -> set[float]:
     """Refuse a folder of another request, or of something else; the stresses (kPa) that an earlier run asked for."""
     if (folder / RECORD).exists():
         known = read_record(folder)
-        differences = _differences(known["identity"], _identity(request))
-        if differences:
+        there, asked = known["identity"], _identity(request)
+        if differences := _differences(there, asked):
             advice = f"To go on with what is there: shearbox run {shlex.quote(str(folder))}. Else take another --out."
+            if there["parameters"].keys() != asked["parameters"].keys():
+                advice = f"Another version began it, with other variables in {PARAMETERS.name}. Take another --out."
             raise InputError(f"{folder} holds another run:\n" + "\n".join([*differences, advice]))
         return set(known["stresses"])
     if folder.exists() and not folder.is_dir():
@@ -77,6 +85,8 @@ def check_folder(folder: Path, request: Request) -> set[float]:
 def open_folder(folder: Path, request: Request) -> None:
     """Begin the record of this request, or take up an earlier one; the folder must be locked."""
     stresses = check_folder(folder, request) | set(request.stresses)
+    if request.model.text is not None:
+        write_text(request.model.path, request.model.text)
     where = str(request.model.path.resolve())
     record = {"identity": _identity(request), "stresses": sorted(stresses), "model_file": where}
     write_json(folder / RECORD, record)
@@ -91,8 +101,10 @@ def recorded(folder: Path) -> Request:
     """What the run in a folder was asked for: the model as it was, whatever its file and parameters.in say now."""
     record = read_record(folder)
     identity = record["identity"]
+    own = folder / Path(record["model_file"]).name  # of a model that was made of its name
+    file = str(own) if own.is_file() else record["model_file"]
     try:
-        model = find_model(record.get("model_file", ""))
+        model = find_model(file)
     except InputError as error:
         raise InputError(f"{folder}: the model of this run cannot be read: {error}") from error
     there: dict[str, Any] = {
@@ -103,7 +115,7 @@ def recorded(folder: Path) -> Request:
     known = parameters()
     settings = {name: canonical(str(v)) for name, v in there.items() if name in known and not _same(v, now.get(name))}
     return Request(
-        model=find_model(record["model_file"], of_model(settings)),
+        model=find_model(file, of_model(settings)),
         stresses=tuple(record["stresses"]),
         speed=identity["speed_mm_s"],
         travel=identity["travel_mm"],

@@ -20,14 +20,29 @@ from .errors import InputError, ShearboxError
 from .files import RECORD
 from .forecast import Forecast, total
 from .lock import locked
-from .models import INPUT, PARAMETERS, find_model
+from .models import INPUT, PARAMETERS, find_model, read_variables
+from .numerals import number, numeral
 from .parameters import canonical, of_model, read_settings
 from .phases import DECKS, deck, shearing
-from .request import OWN_OPTION, Request, check_folder, open_folder, recorded
+from .presets import DENSITIES, PACKING_FRICTION
+from .request import OWN_OPTION, Request, check_folder, open_folder, placed, recorded
 from .specimens import Run, check_out, find_runs, planned, read_seeds
 
 SPARE_BYTES = 100_000_000
-OF_A_RUN = ("stress", "accuracy", "speed", "travel", "seed", "seeds", "independent", "law", "dt", "stiffness", "set")
+OF_A_RUN = (
+    "stress",
+    "accuracy",
+    "speed",
+    "travel",
+    "seed",
+    "seeds",
+    "independent",
+    "law",
+    "dt",
+    "stiffness",
+    "density",
+    "set",
+)
 DEFAULT_STRESSES = (100.0, 200.0, 300.0, 400.0)  # kPa
 
 
@@ -55,7 +70,8 @@ def run(options: argparse.Namespace) -> None:
 
 def prepare(given: dict[str, Any]) -> tuple[Path, list[Run], Engine]:
     """What is asked for, the folder of all of it, and the engine, all of them checked; nothing is written."""
-    out, runs = _asked(given)
+    out, asked = _asked(given)
+    runs = [replace(one, request=placed(one.request, one.folder)) for one in asked]
     for one in runs:
         check(one.request)
     engine = Engine(given.get("engine", PROGRAM).resolve(), given["ranks"])
@@ -132,10 +148,11 @@ def _ensemble_there(folder: Path, given: dict[str, Any]) -> tuple[Path, list[Run
 
 
 def _one_asked(given: dict[str, Any]) -> tuple[Path, Request]:
-    settings = read_settings(given.get("set", []), OWN_OPTION)
+    settings = _settings(given)
     if "out" in given:
         folder = given["out"]
-        request = Request(find_model(given["model"], of_model(settings)), DEFAULT_STRESSES, settings=settings)
+        model = find_model(given["model"], of_model(settings), _packing_friction(settings))
+        request = Request(model, DEFAULT_STRESSES, settings=settings)
     elif Path(given["model"]).is_dir():
         folder = Path(given["model"])
         request = recorded(folder)
@@ -151,6 +168,20 @@ def _one_asked(given: dict[str, Any]) -> tuple[Path, Request]:
     if "dt" in given:
         changes["dt"] = canonical(given["dt"].strip())
     return folder, replace(request, **changes)
+
+
+def _settings(given: dict[str, Any]) -> dict[str, str]:
+    """Of --set and --density."""
+    settings = read_settings(given.get("set", []), OWN_OPTION)
+    if "density" not in given:
+        return settings
+    if PACKING_FRICTION in settings:
+        raise InputError(f"--density: --set {PACKING_FRICTION} is given, too")
+    return settings | {PACKING_FRICTION: numeral(DENSITIES[given["density"]])}
+
+
+def _packing_friction(settings: dict[str, str]) -> float:
+    return number((read_variables(PARAMETERS) | settings)[PACKING_FRICTION])
 
 
 def _check_folders(out: Path, runs: list[Run], given: dict[str, Any]) -> None:

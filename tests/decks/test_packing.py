@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""pack.in: even from floor to lid, in steps that the height of the box does not count in, to the same bits on any ranks."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from engine import DECKS, run
+
+ROOT = Path(__file__).resolve().parents[2]
+INPUT = ROOT / "input"
+sys.path.insert(0, str(ROOT / "tools"))
+
+from shearbox_tools.files import PACKED_TABLE  # noqa: E402
+from shearbox_tools.models import find_model  # noqa: E402
+from shearbox_tools.named import model_text  # noqa: E402
+from shearbox_tools.presets import DENSITIES, PACKING_FRICTION  # noqa: E402
+from shearbox_tools.readers import read_row  # noqa: E402
+
+SMALL = "TypeA_4x2_2-4_1-circle_auto"
+
+
+def deck(folder: Path, name: str, friction: float = 0.0) -> tuple[str, dict[str, Any]]:
+    """pack.in and its variables; the file of the model is in the folder."""
+    text = model_text(name, friction)
+    assert text
+    folder.mkdir(exist_ok=True)
+    (folder / f"{name}.in").write_text(text, encoding="utf-8")
+    options = {"decks": INPUT, "models": ".", "model": name, PACKING_FRICTION: friction}
+    return (INPUT / "pack.in").read_text(encoding="utf-8"), options
+
+
+def pack(folder: Path, name: str, friction: float = 0.0) -> dict[str, float]:
+    """The row that it writes of a model of that name."""
+    text, options = deck(folder, name, friction)
+    run(text, folder, **options)
+    return read_row(folder / PACKED_TABLE)
+
+
+def test_the_same_bits_on_any_ranks(tmp_path: Path) -> None:
+    """Up to where grains have collided, walls above the lid are gone, and the lid presses: what comes then is as in a bed."""
+    ends = []
+    for ranks in (1, 2, 4):
+        text, options = deck(tmp_path / str(ranks), "TypeA_2x1_2-4_1-circle_auto")
+        compact = text.split("# Press together")[0] + f"run 200\ninclude {DECKS}/end.in\n"
+        ends.append(run(compact, tmp_path / str(ranks), ranks=ranks, **options).end)
+    assert all(set(ends[0].columns) == set(end.columns) for end in ends)
+    assert all((ends[0][name] == end[name]).all() for end in ends for name in end.columns)
+
+
+def test_a_high_box_is_even_and_takes_few_steps(tmp_path: Path) -> None:
+    """A lid that sweeps the column at 2 m/s would take 0.8 x 0.2 m/(2 m/s) = 80 ms, more than 200,000 steps of 4e-7 s at
+    most, and the grains below it would not know of it until it comes."""
+    row = pack(tmp_path, "TypeA_2x10_2-4_1-circle_auto")
+    assert row["steps"] < 100_000
+    assert row["solid_fraction_bottom"] == pytest.approx(row["solid_fraction_top"], rel=0.01)
+
+
+def test_friction_makes_it_loose(tmp_path: Path) -> None:
+    """By more than 200 grains scatter; and COUNT auto knows of it: the lid lies at the height of the box."""
+    rows = {name: pack(tmp_path, SMALL, friction=angle) for name, angle in DENSITIES.items()}
+    solid = {name: row["solid_fraction"] for name, row in rows.items()}
+    assert solid["dense"] > solid["medium"] > solid["loose"]
+    assert solid["dense"] > 1.02 * solid["loose"]
+    for row in rows.values():
+        assert row["height_m"] == pytest.approx(0.04, rel=0.02)  # 200 grains scatter by some 0.5 %
+
+
+@pytest.mark.parametrize("name", ["TypeA_6x3_T-2_1-circle_auto", "TypeA_8x4_2-4_3-circle_auto"])
+def test_as_many_as_fill_the_box(tmp_path: Path, name: str) -> None:
+    """Equal discs, which crystallise, and grains of three discs."""
+    assert pack(tmp_path, name)["height_m"] == pytest.approx(2 * find_model(name).half_height, rel=0.01)
