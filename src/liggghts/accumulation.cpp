@@ -140,7 +140,7 @@ void Accumulation::init_granular() {
   registry.connect("hs", hs, who);
   registry.connect("coeffFrict", mu, who);
 
-  stride = atom->ntypes + 1;
+  stride = registry.max_type() + 1;
   materials.assign(stride * stride, {});
   for (int i = 1; i < stride; i++)
     for (int j = 1; j < stride; j++) {

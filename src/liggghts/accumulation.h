@@ -58,6 +58,8 @@ public:
   int64_t hashcode() override;
   bool contact_match(const std::string type, const std::string model) override;
 
+  // The largest type of an atom: LIGGGHTS has properties of no others, whatever create_box says.
+  int types() const { return stride - 1; }
   const cdem::Material &material(int itype, int jtype) const { return materials[itype * stride + jtype]; }
 
   // Of all contacts as they are, all ranks together.

@@ -35,7 +35,7 @@ FixIntegrate::FixIntegrate(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
   while (!words.done()) {
     const std::string keyword = words.word("keyword");
     if (keyword == "drag")
-      drag = 1 / words.positive("drag");
+      read_drag(words);
     else if (keyword == "dt") {
       const std::string choice = words.word("dt");
       if (choice != "check" && choice != "any" && choice != "auto")
@@ -66,7 +66,31 @@ FixIntegrate::~FixIntegrate() {
 
 int FixIntegrate::setmask() {
   using namespace FixConst;
-  return INITIAL_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE | (drag > 0 ? POST_FORCE : 0);
+  return INITIAL_INTEGRATE | PRE_FORCE | POST_FORCE | FINAL_INTEGRATE;
+}
+
+void FixIntegrate::read_drag(Words &words) {
+  drag = words.number_follows() ? 1 / words.positive("drag") : 0;
+  if (drag == 0)
+    words.keyword("none");
+}
+
+int FixIntegrate::modify_param(int narg, char **arg) {
+  const std::string keyword = arg[0];
+  Words words(lmp, std::string("Fix_modify ") + id, narg, arg, 1);
+  if (keyword == "drag")
+    read_drag(words);
+  else if (keyword == "omega")
+    set_spins(words.number("omega"));
+  else
+    return 0;
+  return words.taken() + 1;
+}
+
+void FixIntegrate::set_spins(double omega) {
+  for (int i = 0; i < atom->nlocal; i++)
+    if (!is_wall(i))
+      atom->omega[i][2] = omega;
 }
 
 // The smallest value over all grains, each as if surrounded by equal grains.
@@ -75,7 +99,7 @@ template <class Value> double FixIntegrate::scene_minimum(Value value) const {
   const Accumulation &law = Accumulation::needed_by("Fix cdem/integrate", lmp);
   double smallest = INFINITY;
   for (int i = 0; i < atom->nlocal; i++)
-    for (int other = 1; other <= atom->ntypes && !is_wall(i); other++)
+    for (int other = 1; other <= law.types() && !is_wall(i); other++)
       smallest =
           std::min(smallest,
                    value(cdem::AmongItsLike{
@@ -144,6 +168,8 @@ void FixIntegrate::initial_integrate(int) {
 }
 
 void FixIntegrate::post_force(int) {
+  if (drag == 0)
+    return;
   for (int i = 0; i < atom->nlocal; i++)
     for (int k = 0; k < 2 && !is_wall(i); k++)
       atom->f[i][k] -= atom->rmass[i] * drag * atom->v[i][k];

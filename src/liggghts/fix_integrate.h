@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// fix ID group cdem/integrate [dt check|any|auto [MAX]] [drag T]
+// fix ID group cdem/integrate [dt check|any|auto [MAX]] [drag T|none]
+// fix_modify ID drag T|none
+// fix_modify ID omega W
 //
 // Velocity Verlet for discs in two dimensions, with inertia m r^2/2. Atoms outside the group are walls: contacts do not
 // move them. Exactly one fix of this style must exist, and nothing else may move its grains. Needs pair_style gran with
@@ -10,6 +12,7 @@
 //   dt auto MAX  set the time step to the smaller of 0.9 x limit and MAX (s, default: no maximum)
 //   drag         of a medium at rest: force -m v/T on each grain, T > 0 (s, default: none); v is the velocity of the
 //                half step
+//   omega        sets the spin of all grains (rad/s); command set of LIGGGHTS cannot
 //
 // It gives the contacts the two velocities that the law takes: that of the half step, with which the grains have moved,
 // and that at the time of the force, carried forward from it by the acceleration of the last step (core/kinematics.h).
@@ -39,6 +42,7 @@ public:
   ~FixIntegrate() override;
 
   int setmask() override;
+  int modify_param(int, char **) override;
   void init() override;
   void reset_dt() override;
   void setup_pre_force(int) override;
@@ -72,6 +76,8 @@ private:
   enum class Rule { check, any, automatic };
 
   template <class Value> double scene_minimum(Value) const;
+  void read_drag(Words &);
+  void set_spins(double omega);
   void choose_step();
   void carry_forward(double time);
   template <class Term> double sum_over_grains(Term) const;

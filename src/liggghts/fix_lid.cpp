@@ -40,8 +40,8 @@ void FixLid::init() {
 double FixLid::largest_stiffness() const {
   const Accumulation &law = Accumulation::needed_by("Fix cdem/lid: vmax", lmp);
   double kn = 0;
-  for (int i = 1; i <= atom->ntypes; i++)
-    for (int j = 1; j <= atom->ntypes; j++)
+  for (int i = 1; i <= law.types(); i++)
+    for (int j = 1; j <= law.types(); j++)
       kn = std::max(kn, law.material(i, j).kn);
   return kn;
 }

@@ -46,6 +46,7 @@ public:
       : lmp(lmp), who(std::move(who)), given(arg + first, arg + std::max(first, narg)) {}
 
   bool done() const { return next == given.size(); }
+  int taken() const { return int(next); }
   std::string word(const char *what);
   double number(const char *what);
   double positive(const char *what);
