@@ -20,8 +20,8 @@
 // Needs dimension 2, atom_style sphere, newton off and communicate single vel yes. Grains are single discs: LIGGGHTS's
 // multisphere is three-dimensional. What a contact remembers is forgotten at once when it opens. On several ranks the
 // last bits of sums depend on the ranks, as for all contact models of LIGGGHTS. compute pair/gran/local and compute pe
-// (energy stored in springs, J) are right; fixes that have LIGGGHTS store contact forces are refused, and so are fix
-// wall/gran (walls are discs, or fix cdem/sides), fix rigid and insertion streams.
+// (energy stored in springs, J) are right; fixes that have LIGGGHTS store contact forces are refused, and so is fix
+// rigid. Walls are discs: fix wall/gran does not know these models.
 #pragma once
 
 #include "core/kinematics.h"
