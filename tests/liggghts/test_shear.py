@@ -13,8 +13,8 @@ from host import run as run_discs
 from same_grains import consolidated, hand_over, run, sheared
 
 SMALL: dict[str, Any] = {"width": 0.03, "half_height": 0.015, "ngrains": 30}
-# 6000 steps, in which the lower half reaches its speed and the grains begin to slide
-SHEAR: dict[str, Any] = {"dt": 4e-7, "speed": 4, "travel": 0.008, "ramp": 0.2, "rows": 100}
+# 6000 steps, in which the lower half reaches its speed, the grains begin to slide and neighbour lists are built again
+SHEAR: dict[str, Any] = {"dt": 4e-7, "speed": 4, "travel": 0.008, "ramp": 0.2, "rows": 100, "skin": 2e-4}
 
 
 @pytest.fixture(scope="module")
