@@ -14,11 +14,6 @@
 
 using namespace LAMMPS_NS;
 
-namespace {
-constexpr double PI = 3.14159265358979323846;
-constexpr double RESOLUTION = 0x1p-50; // m, see the header
-} // namespace
-
 FixCDEMMove::FixCDEMMove(LAMMPS *lmp, int narg, char **arg) : WallBody(lmp, narg, arg) {
   bool has_speed = false, has_stop = false;
   Shearbox::DeckWords words = words_of(narg, arg);
@@ -26,34 +21,34 @@ FixCDEMMove::FixCDEMMove(LAMMPS *lmp, int narg, char **arg) : WallBody(lmp, narg
     const std::string keyword = words.word("keyword");
     if (keyword == "speed") {
       has_speed = true;
-      speed = words.number("speed");
+      path.speed = words.number("speed");
     } else if (keyword == "dir") {
       const std::string dir = words.choice();
       if (dir != "x" && dir != "y")
         error->all(FLERR, "Fix cdem/move {}: dir {}: must be x or y", id, dir);
       vertical = dir == "y";
     } else if (keyword == "ramp")
-      ramp = words.number("ramp");
+      path.ramp = words.number("ramp");
     else if (keyword == "stop") {
       has_stop = true;
-      stop = words.number("stop");
+      path.stop = words.number("stop");
     } else
       error->all(FLERR, "Fix cdem/move {}: unknown keyword {}; allowed: speed, dir, ramp, stop", id, keyword);
   }
   if (!has_speed)
     error->all(FLERR, "Fix cdem/move {}: speed (m/s) is missing", id);
-  if (!std::isfinite(speed))
-    error->all(FLERR, "Fix cdem/move {}: speed {}: must be a number (m/s)", id, speed);
-  if (!(ramp >= 0 && std::isfinite(ramp)))
-    error->all(FLERR, "Fix cdem/move {}: ramp {}: must be 0 or more (s)", id, ramp);
-  if (has_stop && !(stop > 0 && std::isfinite(stop)))
-    error->all(FLERR, "Fix cdem/move {}: stop {}: must be positive (m)", id, stop);
+  if (!std::isfinite(path.speed))
+    error->all(FLERR, "Fix cdem/move {}: speed {}: must be a number (m/s)", id, path.speed);
+  if (!(path.ramp >= 0 && std::isfinite(path.ramp)))
+    error->all(FLERR, "Fix cdem/move {}: ramp {}: must be 0 or more (s)", id, path.ramp);
+  if (has_stop && !(path.stop > 0 && std::isfinite(path.stop)))
+    error->all(FLERR, "Fix cdem/move {}: stop {}: must be positive (m)", id, path.stop);
   size_vector = NOUTPUTS;
 }
 
 // LAMMPS has given this fix its state by now.
 void FixCDEMMove::post_constructor() {
-  if (speed != 0)
+  if (path.speed != 0)
     left = Shearbox::states_left(lmp, style);
 }
 
@@ -82,27 +77,14 @@ void FixCDEMMove::reset_dt() {
   clock = {clock.start + clock.steps * clock.dt, 0, update->dt};
 }
 
-FixCDEMMove::Motion FixCDEMMove::motion() const {
-  const double t = clock.start + clock.steps * clock.dt;
-  Motion m;
-  if (t < ramp) {
-    const double phase = PI * t / ramp;
-    m = {0.5 * speed * (t - ramp / PI * std::sin(phase)), 0.5 * speed * (1 - std::cos(phase)),
-         0.5 * speed * PI / ramp * std::sin(phase)};
-  } else
-    m = {speed * (t - 0.5 * ramp), speed, 0};
-  if (stop > 0 && std::fabs(m.s) >= stop)
-    m = {std::copysign(stop, speed), 0, 0};
-  m.s = std::nearbyint(m.s / RESOLUTION) * RESOLUTION;
-  return m;
-}
+FixCDEMMove::Motion FixCDEMMove::motion() const { return path.at(clock.start + clock.steps * clock.dt); }
 
 WallBody::Vector FixCDEMMove::along(double amount) const { return vertical ? Vector{0, amount} : Vector{amount, 0}; }
 
 void FixCDEMMove::apply() { set_motion(along(now.speed), along(now.acceleration)); }
 
 void FixCDEMMove::initial_integrate(int) {
-  if (speed == 0)
+  if (path.speed == 0)
     return;
   clock.steps++;
   const double before = now.s;
@@ -111,7 +93,7 @@ void FixCDEMMove::initial_integrate(int) {
 }
 
 void FixCDEMMove::final_integrate() {
-  if (speed == 0)
+  if (path.speed == 0)
     return;
   apply();
   if (follows_forces())

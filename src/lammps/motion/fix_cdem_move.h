@@ -21,6 +21,7 @@
 // under another ID, while the state of such a fix is left in the file, is refused when the run begins.
 #pragma once
 
+#include "core/ramped_motion.h"
 #include "motion/wall_body.h"
 
 #include <string>
@@ -39,16 +40,14 @@ public:
   void reset_dt() override;
   double compute_vector(int) override;
   void setup(int) override;
-  bool follows_forces() const override { return is_audited() && speed != 0; }
+  bool follows_forces() const override { return is_audited() && path.speed != 0; }
   void write_restart(FILE *) override;
   void restart(char *) override;
 
 private:
   void refuse_other_id() const;
 
-  struct Motion {
-    double s, speed, acceleration;
-  };
+  using Motion = cdem::RampedMotion::State;
   // The time is start + steps dt: not a sum of small numbers, and a run can be continued with another dt. In s.
   struct Clock {
     double start, steps, dt;
@@ -67,7 +66,7 @@ private:
   Vector along(double amount) const;
   Vector force() const; // along the motion
 
-  double speed = 0, ramp = 0, stop = 0; // stop 0: none
+  cdem::RampedMotion path;
   bool vertical = false;
   Clock clock{0, 0, 0};
   Motion now{0, 0, 0};
