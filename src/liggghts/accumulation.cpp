@@ -189,6 +189,8 @@ struct Stored {
 
 // Energy in the springs of a contact (J); `numbers`: what it remembers.
 template <class Law> double stored(const cdem::Material &m, double overlap, const double *numbers, int es, int en) {
+  if constexpr (Law::CONSTANTS > 0)
+    return 0; // laws with additions, which are not chosen here
   const double remembered[2] = {numbers[es], numbers[en]};
   const auto e = Law::template energy<Stored>(m, nullptr, remembered, overlap);
   return e.normal + e.tangential;

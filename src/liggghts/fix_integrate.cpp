@@ -18,7 +18,6 @@ using namespace LAMMPS_NS;
 namespace Liggghts {
 
 namespace {
-enum Output { TRM, UNBALANCED, TRANSLATION, ROTATION, SPRINGS, NOUTPUTS };
 constexpr double OF_LIMIT = 0.9;
 constexpr int VELOCITIES = 3; // vx, vy, omega
 constexpr int GROW = 0;       // of Atom::add_callback: arrays with an entry per atom
@@ -52,10 +51,10 @@ FixIntegrate::FixIntegrate(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
   size_vector = NOUTPUTS;
   size_peratom_cols = NCOLUMNS;
   comm_forward = VELOCITIES;
-  grow_arrays(atom->nmax);
+  FixIntegrate::grow_arrays(atom->nmax);
   atom->add_callback(GROW);
   for (int i = 0; i < atom->nlocal; i++)
-    set_arrays(i);
+    FixIntegrate::set_arrays(i);
 }
 
 FixIntegrate::~FixIntegrate() {

@@ -72,6 +72,7 @@ public:
   void set_acceleration(int i, double x, double y) { of_grain[i][X] = x, of_grain[i][Y] = y; }
 
 private:
+  enum Output { TRM, UNBALANCED, TRANSLATION, ROTATION, SPRINGS, NOUTPUTS };
   enum Column { X, Y, TURN, PATH, TURNED, ANGLE, NCOLUMNS };
   enum class Rule { check, any, automatic };
 

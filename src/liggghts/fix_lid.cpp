@@ -12,10 +12,6 @@ using namespace LAMMPS_NS;
 
 namespace Liggghts {
 
-namespace {
-enum Output { APPLIED, FELT, HEIGHT, VELOCITY, CAPPED_STEPS, FORCE_X, NOUTPUTS };
-} // namespace
-
 FixLid::FixLid(LAMMPS *lmp, int narg, char **arg) : WallBody(lmp, narg, arg) {
   Words words = words_of(narg, arg);
   words.keyword("stress");

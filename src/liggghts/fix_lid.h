@@ -30,6 +30,8 @@ public:
   double compute_vector(int) override;
 
 private:
+  enum Output { APPLIED, FELT, HEIGHT, VELOCITY, CAPPED_STEPS, FORCE_X, NOUTPUTS };
+
   double largest_stiffness() const;
   double lower_face() const;
   void take_acceleration();

@@ -11,10 +11,6 @@ using namespace LAMMPS_NS;
 
 namespace Liggghts {
 
-namespace {
-enum Output { DISPLACEMENT, SPEED, FORCE_X, FORCE_Y, NOUTPUTS };
-} // namespace
-
 FixMove::FixMove(LAMMPS *lmp, int narg, char **arg) : WallBody(lmp, narg, arg) {
   Words words = words_of(narg, arg);
   words.keyword("speed");

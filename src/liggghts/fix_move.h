@@ -30,6 +30,8 @@ public:
   void restart(char *) override;
 
 private:
+  enum Output { DISPLACEMENT, SPEED, FORCE_X, FORCE_Y, NOUTPUTS };
+
   // The time is start + steps dt: not a sum of small numbers.
   struct Clock {
     double start, steps, dt;
