@@ -129,16 +129,17 @@ template <int accumulation, unsigned additions, bool limit_damping>
 using LawOf = decltype(laws::composed<std::tuple_element_t<accumulation, Accumulations>, limit_damping>(
     laws::chosen<additions>(std::make_index_sequence<ADDITIONS>())));
 
-// Calls visit with an object of the ContactLaw type that the rules choose.
-template <int accumulation = 0, unsigned additions = 0, class Visit>
+// Calls visit with an object of the ContactLaw type that the rules choose, among those with the first `sets` sets of
+// additions: a caller that knows none has the others not compiled with 1.
+template <unsigned sets = 1u << ADDITIONS, int accumulation = 0, unsigned additions = 0, class Visit>
 auto with_law(const ContactRules &rules, Visit visit) {
   if (rules.accumulation == accumulation && rules.additions == additions)
     return rules.limit_damping ? visit(LawOf<accumulation, additions, true>())
                                : visit(LawOf<accumulation, additions, false>());
-  if constexpr (additions + 1 < 1u << ADDITIONS)
-    return with_law<accumulation, additions + 1>(rules, visit);
+  if constexpr (additions + 1 < sets)
+    return with_law<sets, accumulation, additions + 1>(rules, visit);
   else if constexpr (accumulation + 1 < ACCUMULATIONS)
-    return with_law<accumulation + 1, 0>(rules, visit);
+    return with_law<sets, accumulation + 1>(rules, visit);
   else
     throw std::out_of_range("no such contact law");
 }

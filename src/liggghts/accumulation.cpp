@@ -159,7 +159,7 @@ void Accumulation::compute_force(PairGran *pair, int eflag, int vflag, int addfl
     pair->ev_setup(eflag, vflag);
   else
     pair->evflag = pair->vflag_fdotr = 0;
-  cdem::with_law({accumulation, 0, limit_damping, false}, [&](auto law) { forces<decltype(law)>(pair, addflag); });
+  cdem::with_law<1>({accumulation, 0, limit_damping, false}, [&](auto law) { forces<decltype(law)>(pair, addflag); });
 }
 
 namespace {
@@ -189,8 +189,6 @@ struct Stored {
 
 // Energy in the springs of a contact (J); `numbers`: what it remembers.
 template <class Law> double stored(const cdem::Material &m, double overlap, const double *numbers, int es, int en) {
-  if constexpr (Law::CONSTANTS > 0)
-    return 0; // laws with additions, which are not chosen here
   const double remembered[2] = {numbers[es], numbers[en]};
   const auto e = Law::template energy<Stored>(m, nullptr, remembered, overlap);
   return e.normal + e.tangential;
@@ -272,7 +270,7 @@ Accumulation::Sums Accumulation::sums() const {
   const NeighList &list = *pair->list, &histories = *pair->listgranhistory;
   const int remembered = const_cast<PairGran *>(pair)->dnum();
   cdem::ExactSum contacts, normal, energy;
-  cdem::with_law({accumulation, 0, limit_damping, false}, [&](auto law) {
+  cdem::with_law<1>({accumulation, 0, limit_damping, false}, [&](auto law) {
     using Law = decltype(law);
     for (int ii = 0; ii < list.inum; ii++)
       for (int i = list.ilist[ii], jj = 0; jj < list.numneigh[i]; jj++) {
