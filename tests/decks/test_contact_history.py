@@ -142,6 +142,35 @@ def test_history_follows_new_ids(tmp_path: Path, law: str, ranks: int, change: s
         assert motion(new) == pytest.approx(motion(kept)[:, same], rel=1e-8)
 
 
+REPLACED = """
+include ${decks}/start.in
+fix move grains cdem/integrate
+timestep 1e-7
+run 20
+group second id 2
+delete_atoms group second compress no
+create_atoms 1 single 3.97e-3 0 0
+set atom 2 diameter 4e-3
+set atom 2 density/disc 26.5
+velocity all set 0 0 0
+set group all omega 0 0 0
+group grains type 1
+run 0
+include ${decks}/end.in
+"""
+
+
+def test_a_new_grain_with_the_id_of_one_that_is_gone_is_new(tmp_path: Path, law: str, ranks: int) -> None:
+    """In its place, touching the same grain: no spring has been sheared between the two, and both are at rest, so the force is
+    along the line of the centres."""
+    end = run(REPLACED, tmp_path, discs=[Disc(0, 0), Disc(3.97e-3, 0, vy=1)], law=law, ranks=ranks).end
+    assert np.array_equal(end["id"], [1, 2])
+    along = np.array([np.diff(end["x"])[0], np.diff(end["y"])[0]])
+    force = np.array([end["fx"][0], end["fy"][0]])
+    assert np.dot(force, along) < 0, "no contact"
+    assert abs(np.cross(force, along)) <= 1e-14 * np.linalg.norm(force) * np.linalg.norm(along)
+
+
 def test_a_grain_with_many_contacts_moves_on(tmp_path: Path, law: str) -> None:
     """A grain in contact with 1200 others comes from a restart file and goes to the other rank at once. (If LAMMPS's
     buffer for it is too small, only tests/sanitize is sure to find that.)"""

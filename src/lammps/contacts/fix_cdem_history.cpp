@@ -129,14 +129,15 @@ void FixCDEMHistory::post_run() {
 bool FixCDEMHistory::has_new_ids() const {
   int mine = 0, all;
   for (int i = 0; i < atom->nlocal; i++)
-    if (count[i] > 0 && owner[i] != atom->tag[i])
+    if (owner[i] != atom->tag[i])
       mine = 1;
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MAX, world);
   return all;
 }
 
 // Grains may have new ids. Each grain knows its own old id (`owner`), and ghosts tell theirs: so the ids of partners
-// can be renewed. A partner that is not on this rank, also not as a ghost, is not a neighbour any more.
+// can be renewed. A partner that is not on this rank, also not as a ghost, is not a neighbour any more. Nor is one that
+// is gone and whose id a new grain has, as this one has no old id.
 void FixCDEMHistory::setup_pre_neighbor() {
   if (!has_new_ids())
     return;
