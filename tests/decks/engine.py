@@ -25,13 +25,15 @@ TIMEOUT = float(os.environ.get("SHEARBOX_TIMEOUT", 120))  # s; a few are enough,
 DENSITY = 26.5  # kg/m^2, areal: 2650 kg/m^3 x 0.01 m
 
 # Open MPI: root is fine. Without mpirun no daemon is wanted, and after an error no second of grace: both take longer than
-# a small case. Its folder is our own: one that is shared with other programs may vanish while we start, as they end.
+# a small case. So does its look for the networks of clusters: a message goes through memory here. Its folder is our own: one
+# that is shared with other programs may vanish while we start, as they end.
 SESSIONS = tempfile.TemporaryDirectory(prefix="mpi-")
 TO_MEASURE = os.environ | {
     "OMP_NUM_THREADS": "1",
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
     "OMPI_MCA_ess_singleton_isolated": "1",
+    "OMPI_MCA_pml": "ob1",
     "OMPI_MCA_odls_base_sigkill_timeout": "0",
     "OMPI_MCA_orte_tmpdir_base": SESSIONS.name,
 }
