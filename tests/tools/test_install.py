@@ -72,7 +72,8 @@ def test_engine(prefix: Path, tmp_path: Path) -> None:
 
 def test_plugin_and_styles_are_side_by_side(prefix: Path) -> None:
     """As the plugin looks for them; Debian's LAMMPS has no PLUGIN package to load it with."""
-    assert sorted(path.name for path in (prefix / "lib" / "shearbox").iterdir()) == ["cdemplugin.so", "cdemstyles.so"]
+    names = {path.name for path in (prefix / "lib" / "shearbox").iterdir()}
+    assert names - {"liggghts_cdem.so"} == {"cdemplugin.so", "cdemstyles.so"}  # the third where LIGGGHTS is installed
 
 
 def test_modulefile(prefix: Path) -> None:
