@@ -108,7 +108,7 @@ def undisturbed(seed: int, *options: str) -> Path:
     folder = Path(tempfile.mkdtemp(prefix="whole"))
     atexit.register(shutil.rmtree, folder)
     given = make_parser().parse_args(["run", MODEL, "--out", str(folder / "run"), "--seed", str(seed), *options])
-    out, runs, engine = prepare(vars(given))
+    out, runs, engine = prepare(given, [vars(given)])
     with locked(out) as lock:
         open_folder(out, runs[0].request)
         assert not carry_out(runs, engine, 1, {out: lock}, Console(quiet=True))

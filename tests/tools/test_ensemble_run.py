@@ -18,7 +18,7 @@ TWO = ("--seeds", "2", "--stress", "100", "200")
 WITHOUT_REPORT = f"""
 import sys, types
 sys.path.insert(0, {str(SHEARBOX.parent)!r})
-sys.modules["shearbox_tools.reporting"] = types.SimpleNamespace(report_on=lambda folder: folder / "report.html")
+sys.modules["shearbox_tools.reporting"] = types.SimpleNamespace(report_on=lambda folder, each: folder / "report.html")
 from shearbox_tools.cli import main
 sys.exit(main())
 """

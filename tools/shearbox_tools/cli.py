@@ -10,6 +10,7 @@ import signal
 import sys
 from pathlib import Path
 from types import FrameType
+from typing import Any
 
 from . import __version__
 from .errors import InputError, ShearboxError
@@ -105,11 +106,28 @@ def _add_run(commands: Commands) -> None:
 
 def _add_what_to_run(run: argparse.ArgumentParser) -> None:
     """The options that `run` and `submit` share."""
+    _add_options_of_a_run(run)
+    run.add_argument("--out", metavar="DIR", type=Path, help="folder of the results; needed unless MODEL is one")
+    run.add_argument(
+        "--jobs",
+        metavar="N",
+        type=int,
+        help="phases run at the same time, of all stresses and specimens (default: 2; of 'submit': those of a job, as many "
+        "as a node has cores for, else one for each stress)",
+    )
+    run.add_argument("--only", metavar="NAME", nargs="+", action="extend", help="of a campaign file: these runs alone")
+    run.add_argument("--ranks", metavar="N", type=int, default=1, help="MPI ranks of each phase (default: 1)")
+    run.add_argument("--engine", metavar="FILE", type=Path, help="engine (default: lmp_cdem of this Shearbox)")
+    run.add_argument("--dry-run", action="store_true", default=False,
+                     help="only say what would run, about how long, and how much it would write; of 'submit': the scripts")  # fmt: skip
+
+
+def _add_options_of_a_run(run: argparse.ArgumentParser) -> None:
+    """Those that a campaign file may have, too."""
     run.add_argument("model", metavar="MODEL",
                      help="name of a model, as 'shearbox models' lists them, or of any other box, as 'shearbox model --help' has "
                      "them; or the path of a model file, NAME.in; or the folder of earlier runs, which go on as they were asked "
-                     "for")  # fmt: skip
-    run.add_argument("--out", metavar="DIR", type=Path, help="folder of the results; needed unless MODEL is one")
+                     "for; or a campaign file, NAME.toml, that asks for many runs, as those of tools/paper_tools/campaigns")  # fmt: skip
     run.add_argument("--stress", metavar="KPA", type=_stress, nargs="+", action="extend",
                      help="normal stresses, kPa (default: 100 200 300 400)")  # fmt: skip
     run.add_argument("--accuracy", choices=list(SPEEDS),
@@ -135,17 +153,6 @@ def _add_what_to_run(run: argparse.ArgumentParser) -> None:
     run.add_argument("--set", metavar="NAME=VALUE", nargs="+", action="extend",
                      help="another value for a variable of the decks or of the model, such as phi=30; "
                      "'shearbox parameters' lists them")  # fmt: skip
-    run.add_argument(
-        "--jobs",
-        metavar="N",
-        type=int,
-        help="phases run at the same time, of all stresses and specimens (default: 2; of 'submit': those of a job, as many "
-        "as a node has cores for, else one for each stress)",
-    )
-    run.add_argument("--ranks", metavar="N", type=int, default=1, help="MPI ranks of each phase (default: 1)")
-    run.add_argument("--engine", metavar="FILE", type=Path, help="engine (default: lmp_cdem of this Shearbox)")
-    run.add_argument("--dry-run", action="store_true", default=False,
-                     help="only say what would run, about how long, and how much it would write; of 'submit': the scripts")  # fmt: skip
 
 
 def _stress(text: str) -> float:
@@ -260,13 +267,26 @@ def _parameters(_: argparse.Namespace) -> None:
 def _run(options: argparse.Namespace) -> None:
     from .run import run
 
-    run(_with_speed(options))
+    run(options, _asked(options))
 
 
-def _with_speed(options: argparse.Namespace) -> argparse.Namespace:
+def _asked(options: argparse.Namespace) -> list[dict[str, Any]]:
+    """What is asked for, of each run or ensemble."""
+    from .campaign_file import OptionParser, is_campaign, read_campaign
+
+    if not is_campaign(options.model):
+        if "only" in options:
+            raise InputError(f"--only: it is for campaign files, {options.model} is none")
+        return [_with_speed(options)]
+    parser = OptionParser(add_help=False, argument_default=argparse.SUPPRESS)
+    _add_options_of_a_run(parser)
+    return read_campaign(Path(options.model), lambda words: _with_speed(parser.parse_args(words)), _with_speed(options))
+
+
+def _with_speed(options: argparse.Namespace) -> dict[str, Any]:
     """As --accuracy chooses it."""
     of_accuracy = {"speed": SPEEDS[options.accuracy]} if "accuracy" in options else {}
-    return argparse.Namespace(**of_accuracy | vars(options))
+    return of_accuracy | vars(options)
 
 
 def _report(options: argparse.Namespace) -> None:
@@ -285,7 +305,7 @@ def _export(options: argparse.Namespace) -> None:
 def _submit(options: argparse.Namespace) -> None:
     from .submit import submit
 
-    submit(_with_speed(options))
+    submit(options, _asked(options))
 
 
 def _status(options: argparse.Namespace) -> None:

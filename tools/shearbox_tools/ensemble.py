@@ -63,9 +63,15 @@ def strength_of_shared(sigma: np.ndarray, tau: np.ndarray) -> EnsembleStrength:
     normal c_j, tan(phi_j) and e_ij, whatever their variances and correlations: the lines are independent and alike
     (Rao, Biometrika 52 (1965) 447; as a practice: Matthews et al., BMJ 300 (1990) 230).
     """
+    slopes, cohesions = lines_of(sigma, tau)
+    return EnsembleStrength(as_angle(mean_of(slopes)), mean_of(cohesions))
+
+
+def lines_of(sigma: np.ndarray, tau: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """tan(phi) and c (kPa) of each specimen, (..., specimens): sigma and tau as for strength_of_shared."""
     _need(len(np.unique(sigma)), "stresses")
     slopes, cohesions = np.moveaxis(np.linalg.pinv(_design(sigma)) @ (tau / sigma)[..., None], -2, 0)[..., 0]
-    return EnsembleStrength(as_angle(mean_of(slopes)), mean_of(cohesions))
+    return slopes, cohesions
 
 
 def strength_of_independent(sigma: np.ndarray, tau: np.ndarray) -> EnsembleStrength:

@@ -22,14 +22,18 @@ TEMPLATE = "ensemble.html.j2"
 
 
 def report_on_runs(
-    folder: Path, runs: Sequence[Path], others: Sequence[Results] = (), damaged: Sequence[LeftOut] = ()
+    folder: Path,
+    runs: Sequence[Path],
+    others: Sequence[Results] = (),
+    damaged: Sequence[LeftOut] = (),
+    each: bool = True,
 ) -> Path:
-    """Write the report on the folder of runs, and that of each; `others`, of which some are damaged, have none of their
-    own. Its path is returned.
+    """Write the report on the folder of runs, and that of each, or not; `others`, of which some are damaged, have none of
+    their own. Its path is returned.
 
     Raises ShearboxError after writing if files are damaged, and without writing if no run is complete.
     """
-    read, unread = _read_all(runs)
+    read, unread = _read_all(runs, each)
     ensembles, incomplete = put_together([*read, *others])
     unread += damaged
     left_out = [*unread, *incomplete]
@@ -49,12 +53,12 @@ def report_on_runs(
     return page
 
 
-def _read_all(folders: Sequence[Path]) -> tuple[list[Results], list[LeftOut]]:
-    """Read runs and write their own reports, as many at a time as there are cores."""
+def _read_all(folders: Sequence[Path], each: bool) -> tuple[list[Results], list[LeftOut]]:
+    """Read runs, and write their own reports or not, as many at a time as there are cores."""
     read: list[Results] = []
     unread: list[LeftOut] = []
     with ProcessPoolExecutor(len(sched_getaffinity(0)), initializer=_end_at_once) as pool:
-        results = [pool.submit(_read_one, folder) for folder in folders]
+        results = [pool.submit(_read_one, folder, each) for folder in folders]
         try:
             for folder, result in zip(folders, (future.result() for future in results)):
                 if isinstance(result, Results):
@@ -72,14 +76,14 @@ def _end_at_once() -> None:
         signal.signal(sign, signal.SIG_DFL)
 
 
-def _read_one(folder: Path) -> Results | str:
-    """A run, of which a report is written if there is anything to report on; or why it cannot be read."""
+def _read_one(folder: Path, each: bool) -> Results | str:
+    """A run, of which a report is written if it is wanted and there is anything to tell; or why it cannot be read."""
     try:
         results = read_results(folder)
     except ShearboxError as error:
         return str(error)
     try:
-        if results.shears:
+        if each and results.shears:
             write_report(results)
     except ShearboxError as error:
         if not results.problems:  # these are told with the ensemble

@@ -11,8 +11,11 @@ from .report import report
 from .specimens import find_runs
 
 
-def report_on(folder: Path, model: str | None = None, speed: float | None = None) -> Path:
-    """Write the report of a folder, whose path is returned; model and speed (mm/s) are for tests run by hand."""
+def report_on(folder: Path, model: str | None = None, speed: float | None = None, each: bool = True) -> Path:
+    """Write the report of a folder, whose path is returned; model and speed (mm/s) are for tests run by hand.
+
+    Of several runs, each has its own report, too, or not.
+    """
     if (folder / RECORD).exists():
         _refuse_options(folder, model, speed)
         return report(folder)
@@ -23,7 +26,7 @@ def report_on(folder: Path, model: str | None = None, speed: float | None = None
     by_hand = [place for place in found if place not in runs]
     if not by_hand:
         _refuse_options(folder, model, speed)
-    return report_on_runs(folder, runs, *read_by_hand(by_hand, model, speed))
+    return report_on_runs(folder, runs, *read_by_hand(by_hand, model, speed), each=each)
 
 
 def _refuse_options(folder: Path, model: str | None, speed: float | None) -> None:

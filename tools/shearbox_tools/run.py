@@ -7,6 +7,7 @@ import signal
 from collections.abc import Mapping
 from contextlib import ExitStack
 from dataclasses import replace
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +30,7 @@ from .request import OWN_OPTION, Request, check_folder, open_folder, placed, rec
 from .specimens import Run, check_out, find_runs, planned, read_seeds
 
 SPARE_BYTES = 100_000_000
+MOST_RUNS = 900  # each keeps a file open, its lock
 OF_A_RUN = (
     "stress",
     "accuracy",
@@ -46,9 +48,9 @@ OF_A_RUN = (
 DEFAULT_STRESSES = (100.0, 200.0, 300.0, 400.0)  # kPa
 
 
-def run(options: argparse.Namespace) -> None:
-    """Carry out the command line; raises ShearboxError when something is wrong or has failed."""
-    out, runs, engine = prepare(vars(options))
+def run(options: argparse.Namespace, asked: list[dict[str, Any]]) -> None:
+    """Carry out what is asked for; raises ShearboxError when something is wrong or has failed."""
+    out, runs, engine = prepare(options, asked)
     console = Console()
     _note_cores(min(options.jobs, tests_of(runs)), engine.ranks, console)
     forecasts = [Forecast(one.folder, one.request) for one in runs]
@@ -63,27 +65,46 @@ def run(options: argparse.Namespace) -> None:
             open_folder(one.folder, one.request)
         problems = carry_out(runs, engine, options.jobs, locks, console)
         if any(any(_sheared(one)) for one in runs):
-            problems = _report(out, console) + problems
+            problems = _report(out, console, each=len(asked) == 1) + problems
     if problems:
         raise ShearboxError("\n".join(problems))
 
 
-def prepare(given: dict[str, Any]) -> tuple[Path, list[Run], Engine]:
-    """What is asked for, the folder of all of it, and the engine, all of them checked; nothing is written."""
-    out, asked = _asked(given)
-    runs = [replace(one, request=placed(one.request, one.folder)) for one in asked]
+def prepare(options: argparse.Namespace, asked: list[dict[str, Any]]) -> tuple[Path, list[Run], Engine]:
+    """The folder of all that is asked for, its runs, and the engine, all of them checked; nothing is written."""
+    groups = [_planned(given, f"{given['out'].name}: " if len(asked) > 1 else "") for given in asked]
+    out = getattr(options, "out", groups[0][0])
+    runs = _in_turn(out, groups)
     for one in runs:
         check(one.request)
-    engine = Engine(given.get("engine", PROGRAM).resolve(), given["ranks"])
-    for name, value in (("--jobs", min(given.get("jobs", 1), tests_of(runs))), ("--ranks", engine.ranks)):
+    if len(runs) > MOST_RUNS:
+        raise InputError(f"{len(runs)} runs are asked for, at most {MOST_RUNS} are expected in one go")
+    engine = Engine(getattr(options, "engine", PROGRAM).resolve(), options.ranks)
+    for name, value in (("--jobs", min(getattr(options, "jobs", 1), tests_of(runs))), ("--ranks", engine.ranks)):
         if not 1 <= value <= 256:
             raise InputError(f"{name} {value}: 1 to 256 are expected")
     engine.check()
     missing = [path.name for path in (PARAMETERS, *map(deck, DECKS)) if not path.is_file()]
     if missing:
         raise InputError(f"{INPUT} lacks {', '.join(missing)}")
-    _check_folders(out, runs, given)
+    for (folder, some), given in zip(groups, asked):
+        _check_folders(folder, some, given)
     return out, runs, engine
+
+
+def _planned(given: dict[str, Any], name: str) -> tuple[Path, list[Run]]:
+    try:
+        out, runs = _asked(given)
+    except InputError as error:
+        raise InputError(f"{name}{error}") from error
+    return out, [replace(one, request=placed(one.request, one.folder)) for one in runs]
+
+
+def _in_turn(out: Path, groups: list[tuple[Path, list[Run]]]) -> list[Run]:
+    """The first specimens of all groups, then the second ones: what is done tells something of all of them."""
+    turns = zip_longest(*(runs for _, runs in groups))
+    in_turn = [one for turn in turns for one in turn if one]
+    return in_turn if len(groups) == 1 else [replace(one, name=str(one.folder.relative_to(out))) for one in in_turn]
 
 
 def tests_of(runs: list[Run]) -> int:
@@ -217,12 +238,12 @@ def _whole(runs: list[Run], forecasts: list[Forecast]) -> Whole:
     )
 
 
-def _report(folder: Path, console: Console) -> list[str]:
-    """Report, and say where; what is wrong with it is returned."""
+def _report(folder: Path, console: Console, each: bool) -> list[str]:
+    """Report, on each run by itself, too, or not, and say where; what is wrong with it is returned."""
     from .reporting import report_on  # with its libraries a second of loading, which a refusal need not wait for
 
     try:
-        page = report_on(folder)
+        page = report_on(folder, each=each)
     except ShearboxError as error:
         return [str(error)]
     _say(console, f"report: {page}")

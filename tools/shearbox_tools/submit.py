@@ -6,6 +6,7 @@ import signal
 import sys
 from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 from rich.console import Console
 
@@ -27,12 +28,12 @@ from .specimens import Run
 PROGRAM = Path(__file__).resolve().parents[1] / "shearbox"
 
 
-def submit(options: argparse.Namespace) -> None:
-    """Submit what is left to do of the command line: all tests in an array of jobs, and the report after them."""
+def submit(options: argparse.Namespace, asked: list[dict[str, Any]]) -> None:
+    """Submit what is left to do of what is asked for: all tests in an array of jobs, and the report after them."""
     given = vars(options)
     cluster = read_cluster(given.get("cluster"))
     scheduler = find_scheduler(cluster.scheduler)
-    out, runs, engine = prepare(given)
+    out, runs, engine = prepare(options, asked)
     left = [run for run in runs if any(left_to_do(run.folder, run.request))]
     if not left:
         print(f"nothing is left to do in {out}; 'shearbox report' writes its report")
