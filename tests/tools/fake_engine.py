@@ -54,6 +54,7 @@ def consolidate(variables: dict[str, str], _: Path) -> None:
 def shear(variables: dict[str, str], log: Path) -> None:
     travel, sigma = float(variables["travel"]), float(variables["sigma"])
     columns = synthetic.curves(sigma, travel, ROWS, int(variables["seed"]))
+    columns |= synthetic.inside(columns, sigma)
     table = Path("shear.dat")
     begin = 0
     if "from" in variables:

@@ -64,6 +64,19 @@ def curves(sigma: float, travel: float, rows: int = 800, seed: int = 1) -> dict[
     }
 
 
+def inside(columns: dict[str, np.ndarray], sigma: float) -> dict[str, np.ndarray]:
+    """Further columns of the same: the shear plane bears a tenth less than lid and lower half, all sides a hundredth."""
+    rows = len(columns["step"])
+    return {
+        "plane_kPa": np.full(rows, 0.9 * sigma),
+        "plane_tau_kPa": 0.9 * columns["tau_kPa"],
+        "sides_upper_kPa": np.full(rows, 0.01 * sigma),
+        "flanges_upper_kPa": np.full(rows, 0.02 * sigma),
+        "coordination": np.full(rows, 3.5),
+        "inertial": np.full(rows, 1e-4),
+    }
+
+
 def write_shear(path: Path, columns: dict[str, np.ndarray], rows: slice = slice(None), mode: str = "w") -> None:
     """shear.dat as shear.in writes it."""
     table = np.column_stack(list(columns.values()))[rows]

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The paper's outlook: strength, dilatancy and rotation against what it leaves for later, a campaign each.
+
+An entry of such a campaign is FAMILY_VALUE, such as single_35 of the friction angle; the one with the paper's value is the model's
+in the campaign of all models.
+"""
+
+import csv
+import io
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.figure import Figure
+
+from shearbox_tools.files import write_text
+from shearbox_tools.style import OTHER_LOOKS, RC
+
+from .effects import Effect, mean, slope
+from .figures import legend_above
+from .specimens import NUMBERS, Group
+
+FAMILIES = {"single": "A_4-8", "triple": "A_2-4_triple"}  # and the models of the campaign of all
+PANELS = {
+    "phi": "φ by the lid (°)",
+    "phi_plane": "φ by the shear plane (°)",
+    "dilation_deg": "ψ at the peak (°)",
+    "trm": "TRM (–)",
+}
+TABLE = ["phi", "phi_plane", "c", "c_plane", "dilation_deg", "trm", "mean", "mean_plane", "end", "inertial", "solid"]
+DEGREES_AND_KPA = {"phi": "φ by the lid, degrees", "phi_plane": "φ by the plane, degrees", "c": "c by the lid, kPa",
+                   "c_plane": "c by the plane, kPa"}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A campaign: title, the axis of its values, whether that is logarithmic, and the paper's value."""
+
+    name: str
+    title: str
+    axis: str
+    base: str
+    logarithmic: bool = False
+
+
+SWEEPS = (
+    Sweep("rate", "Loading rate", "shear speed (mm/s)", "", True),
+    Sweep("inertia", "Roller effect: moment of inertia", "moment of inertia over that of discs (–)", "1", True),
+    Sweep("rolling", "Roller effect: rolling resistance", "coefficient of rolling resistance (–)", "0"),
+    Sweep("friction", "φ and the friction angle between grains", "φ_μ (degrees)", "27"),
+    Sweep("cohesion", "Cohesive contacts", "pull-off force of two discs (N)", "0"),
+)
+
+
+@dataclass(frozen=True)
+class Point:
+    """All specimens with one value of what is varied."""
+
+    family: str
+    value: float
+    group: Group
+
+    def effect(self, name: str) -> Effect:
+        """Mean of a number over its specimens."""
+        return mean(f"{self.family}, {self.value:g}", self.group.values(name))
+
+
+@dataclass(frozen=True)
+class Study:
+    """A sweep with its points, in order, the slopes of its trends, and files of its figure and numbers."""
+
+    sweep: Sweep
+    points: list[Point]
+    trends: list[tuple[str, Effect]]
+    picture: Path
+    numbers: Path
+
+
+def study(sweep: Sweep, groups: Mapping[str, Group], models: Mapping[str, Group], folder: Path) -> Study | None:
+    """What there is of a sweep, drawn into the folder; None if nothing but the paper's value."""
+    if not groups:
+        return None
+    points = [Point(*_family_and_value(name), group) for name, group in groups.items()]
+    families = sorted({point.family for point in points})
+    if sweep.base:
+        points += [Point(f, float(sweep.base), models[FAMILIES[f]]) for f in families if FAMILIES[f] in models]
+    points.sort(key=lambda point: (point.family, point.value))
+    folder.mkdir(parents=True, exist_ok=True)
+    picture, numbers = folder / f"{sweep.name}.svg", folder / f"{sweep.name}.csv"
+    with rc_context(RC):
+        _figure(sweep, points).savefig(picture, metadata={"Date": None})
+    write_text(numbers, _csv(points))
+    trends = [(name, _trend(sweep, f, points, name)) for f in families for name in PANELS]
+    return Study(sweep, points, trends, picture, numbers)
+
+
+def _family_and_value(name: str) -> tuple[str, float]:
+    family, _, value = name.rpartition("_")
+    return family, float(value)
+
+
+def _trend(sweep: Sweep, family: str, points: list[Point], name: str) -> Effect:
+    """Per unit of the axis, or tenfold if that is logarithmic."""
+    some = [point for point in points if point.family == family]
+    values = [point.group.values(name) for point in some]
+    x = np.concatenate([np.full(len(v), point.value) for v, point in zip(values, some)])
+    per = "tenfold" if sweep.logarithmic else "unit"
+    return slope(f"{family}: {PANELS[name]} per {per}", np.log10(x) if sweep.logarithmic else x, np.concatenate(values))
+
+
+def _figure(sweep: Sweep, points: list[Point]) -> Figure:
+    figure = Figure(figsize=(9.6, 2.9), layout="constrained")
+    for axes, (name, label) in zip(figure.subplots(1, len(PANELS)), PANELS.items()):
+        for look, family in zip(OTHER_LOOKS, sorted({point.family for point in points})):
+            some = [point for point in points if point.family == family]
+            effects = [point.effect(name) for point in some]
+            half = [(e.high - e.low) / 2 for e in effects]
+            axes.errorbar([p.value for p in some], [e.value for e in effects], half, fmt=look.mark, color=look.colour,
+                          ls=look.dashes, lw=1.2, ms=4, capsize=2, label=family)  # fmt: skip
+        axes.set(xlabel=sweep.axis, ylabel=label)
+        axes.xaxis.label.set_fontsize(7.5)
+        if sweep.logarithmic:
+            axes.set_xscale("log")
+    handles, labels = axes.get_legend_handles_labels()
+    legend_above(figure, dict(zip(labels, handles)))
+    return figure
+
+
+def _csv(points: list[Point]) -> str:
+    """A line for each point: means over the specimens with their intervals."""
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(
+        ["family", "value", "specimens", *(f"{name}{end}" for name in TABLE for end in ("", "_low", "_high"))]
+    )
+    for point in points:
+        effects = [point.effect(name) for name in TABLE]
+        cells = [f"{v:.6g}" for e in effects for v in (e.value, e.low, e.high)]
+        table.writerow([point.family, f"{point.value:g}", len(point.group.specimens), *cells])
+    return text.getvalue()
+
+
+def meaning(name: str) -> str:
+    """Of a number of TABLE."""
+    return DEGREES_AND_KPA.get(name) or NUMBERS[name]

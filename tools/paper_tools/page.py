@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The page of the study: findings with their verdicts, the paper's figures, its Table 3 for each model, and its outlook."""
+
+import base64
+import shutil
+import subprocess
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+from shearbox_tools.campaign import read_timings
+from shearbox_tools.files import write_json, write_text
+from shearbox_tools.page import TEMPLATES, minus
+from shearbox_tools.page import number as number_of
+from shearbox_tools.summary import plain
+
+from .effects import Effect, mean
+from .figures import Picture
+from .findings import Finding
+from .outlook import PANELS, Study
+from .specimens import NUMBERS, STRENGTHS, Group
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+OF_MODELS = ["phi", "phi_plane", "c", "dilation_deg", "sharpness", "late_rate", "trm", "solid", "inertial"]
+OF_WALLS = ["sides_rest", "sides_peak", "flanges_peak", "peak", "peak_plane"]
+HALVES = ("phi", "phi_plane", "dilation_deg", "trm", "mean", "peak")
+
+
+def strengths(group: Group) -> dict[str, Effect]:
+    """The numbers of a model's row."""
+    return {name: mean(group.name, group.values(name)) for name in dict.fromkeys([*OF_MODELS, *OF_WALLS])}
+
+
+def table_3(group: Group) -> list[dict[str, float]]:
+    """At the peak of each stress, in the mean over specimens: horizontal displacement (mm), normal and shear stress (kPa), and
+    the angle (degrees) of their ratio."""
+    rows = []
+    for sigma, shears in group.ensemble.shears.items():
+        tau = float(np.mean([shear.peak.value for shear in shears]))
+        place = float(np.mean([shear.peak.position for shear in shears]))
+        rows.append({"sigma": sigma, "s": place, "tau": tau, "angle": float(np.degrees(np.arctan(tau / sigma)))})
+    return rows
+
+
+def core_hours(groups: Mapping[str, Group]) -> float:
+    """That all phases of all specimens have taken."""
+    runs = [run for group in groups.values() for run in group.ensemble.specimens]
+    return sum(sum(read_timings(run.folder).values()) for run in runs) / 3600
+
+
+def record(findings: Mapping[str, Sequence[Finding]], groups: Mapping[str, Mapping[str, Group]], out: Path) -> None:
+    """All numbers behind the page: findings.json, and specimens.csv with a row for each specimen and stress."""
+    write_json(
+        out / "findings.json", plain({walls: [asdict(one) for one in found] for walls, found in findings.items()})
+    )
+    lines = [",".join(["campaign", "entry", "seed", *STRENGTHS, "sigma_kPa", *NUMBERS])]
+    for campaign, some in groups.items():
+        for group in some.values():
+            for one in group.specimens:
+                strengths_of_one = [getattr(one, name) for name in STRENGTHS]
+                for sigma, test in one.tests.items():
+                    values = [*strengths_of_one, sigma, *(test[name] for name in NUMBERS)]
+                    lines.append(",".join([campaign, group.name, str(one.seed), *(f"{v:.5g}" for v in values)]))
+    write_text(out / "specimens.csv", "\n".join(lines) + "\n")
+
+
+def write_page(out: Path, **content: Any) -> Path:
+    """page.html, and page.pdf where there is a browser that prints."""
+    environment = Environment(
+        loader=FileSystemLoader([Path(__file__).parent / "templates", TEMPLATES]),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters.update(number=number_of, minus=minus, uri=_uri, interval=interval)
+    page = out / "page.html"
+    write_text(page, environment.get_template("paper.html.j2").render(panels=PANELS, **content))
+    return page
+
+
+def interval(effect: Effect, digits: int = 3) -> str:
+    """A value with its interval."""
+    if not np.isfinite(effect.value):
+        return "–"
+    if not np.isfinite(effect.low):
+        return (
+            f"{number_of(effect.value, digits)} (one specimen)"
+            if effect.count == 1
+            else number_of(effect.value, digits)
+        )
+    return f"{number_of(effect.value, digits)} [{number_of(effect.low, digits)}, {number_of(effect.high, digits)}]"
+
+
+def print_page(page: Path) -> Path | None:
+    """The page as PDF, beside it; None without a browser."""
+    browser = next((path for name in BROWSERS if (path := shutil.which(name))), None)
+    if browser is None:
+        return None
+    target = page.with_suffix(".pdf").absolute()
+    command = [
+        browser,
+        "--headless",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--no-pdf-header-footer",
+        f"--print-to-pdf={target}",
+    ]
+    done = subprocess.run([*command, page.absolute().as_uri()], capture_output=True, timeout=300)
+    return target if done.returncode == 0 and target.exists() else None
+
+
+def _uri(picture: Path) -> str:
+    return f"data:image/svg+xml;base64,{base64.b64encode(picture.read_bytes()).decode()}"

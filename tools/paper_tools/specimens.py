@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What each specimen of a campaign has measured: one number of each kind a test, and strengths over its stresses."""
+
+from collections.abc import Iterable
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from os import sched_getaffinity
+from pathlib import Path
+
+import numpy as np
+
+from shearbox_tools.ensemble import lines_of
+from shearbox_tools.ensemble_results import Ensemble
+from shearbox_tools.errors import ShearboxError
+from shearbox_tools.features import steepest_dilatancy
+from shearbox_tools.results import Results, read_results
+from shearbox_tools.shear import Shear
+from shearbox_tools.specimens import find_runs
+from shearbox_tools.stress_dilatancy import ultimate_rows
+
+Numbers = dict[str, float]
+
+# Of a test, with units. Ratios are of stresses; those of the plane are of the stresses on the shear plane.
+NUMBERS = {
+    "peak": "greatest τ/σ of the polynomial",
+    "peak_mm": "shear displacement there, mm",
+    "peak_smoothed": "greatest τ/σ of the smoothed data",
+    "peak_plane": "greatest τ on the shear plane over σ there, polynomials",
+    "mean": "mean τ over mean σ",
+    "mean_plane": "the same on the shear plane",
+    "end": "τ/σ in the last fifth",
+    "sharpness": "greatest τ over that of the last fifth",
+    "dilation_deg": "dilation angle at the peak of τ, degrees",
+    "steepest": "steepest rise of the lid, mm/mm",
+    "highest_mm": "highest place of the lid, mm",
+    "late_rate": "mean rise of the lid in the second half of the travel, mm/mm",
+    "trm": "TRM at the end",
+    "roughness": "scatter of τ around its polynomial, over mean τ",
+    "inertial": "mean inertial number inside",
+    "coordination": "coordination number before shear",
+    "solid": "solid fraction before shear",
+    "sides_rest": "vertical load on the sides of the upper half over the lid's, before shear",
+    "sides_peak": "the same at the peak of τ",
+    "flanges_peak": "load on flanges of the upper half over the lid's, at the peak of τ",
+}
+
+
+@dataclass(frozen=True)
+class Specimen:
+    """One packing, sheared at several normal stresses (kPa); angles of its strength in degrees, cohesions in kPa."""
+
+    seed: int
+    tests: dict[float, Numbers]
+    phi: float
+    c: float
+    phi_plane: float
+    c_plane: float
+
+    def mean(self, name: str) -> float:
+        """Of a number of NUMBERS, over the stresses; of a strength, itself."""
+        if name in STRENGTHS:
+            return float(getattr(self, name))
+        return float(np.mean([numbers[name] for numbers in self.tests.values()]))
+
+
+STRENGTHS = ("phi", "c", "phi_plane", "c_plane")
+
+
+@dataclass(frozen=True)
+class Group:
+    """All specimens of an entry of a campaign that are complete."""
+
+    name: str
+    ensemble: Ensemble
+    specimens: list[Specimen]
+
+    @property
+    def model(self) -> str:
+        """Its name."""
+        return str(self.ensemble.identity["model"])
+
+    def values(self, name: str) -> np.ndarray:
+        """(specimens,) of a number of NUMBERS, in the mean over the stresses, or of a strength."""
+        return np.array([specimen.mean(name) for specimen in self.specimens])
+
+
+def read_groups(folder: Path) -> dict[str, Group]:
+    """By the names of the entries, in the order of the folder; what is not complete is left out."""
+    places = find_runs(folder) if folder.is_dir() else []
+    with ProcessPoolExecutor(len(sched_getaffinity(0))) as pool:
+        every = [results for results in pool.map(_read, places) if results is not None]
+    return {name: _group(name, runs) for name, runs in _by_entry(folder, every).items()}
+
+
+def _read(place: Path) -> Results | None:
+    try:
+        results = read_results(place)
+    except ShearboxError:
+        return None
+    return results if results.complete and results.knows_plane and len(results.shears) > 1 else None
+
+
+def _by_entry(folder: Path, every: Iterable[Results]) -> dict[str, list[Results]]:
+    entries: dict[str, list[Results]] = {}
+    for results in every:
+        entries.setdefault(str(results.folder.relative_to(folder).parts[0]), []).append(results)
+    return entries
+
+
+def _group(name: str, runs: list[Results]) -> Group:
+    return Group(name, Ensemble(runs), [specimen(run) for run in runs])
+
+
+def specimen(results: Results) -> Specimen:
+    """The numbers of a run that is complete."""
+    sigma = np.array([shear.sigma for shear in results.shears])
+    tau = np.array([shear.peak.value for shear in results.shears])
+    planes = [shear.plane for shear in results.shears if shear.plane]
+    sigma_plane, tau_plane = np.array([(plane.sigma_at_peak, plane.peak.value) for plane in planes]).T
+    (slope, c), (slope_plane, c_plane) = lines_of(sigma, tau), lines_of(sigma_plane, tau_plane)
+    phi, phi_plane = (float(np.degrees(np.arctan(s))) for s in (slope, slope_plane))
+    tests = {shear.sigma: numbers(shear, results.consolidations[shear.sigma]) for shear in results.shears}
+    return Specimen(int(results.identity["seed"]), tests, phi, float(c), phi_plane, float(c_plane))
+
+
+def numbers(shear: Shear, bed: Numbers) -> Numbers:
+    """Those of NUMBERS of one test; `bed` is the table of its consolidation."""
+    rows = {name: column[shear.rows] for name, column in shear.data.items()}
+    s, plane = rows["displacement_mm"], shear.plane
+    assert plane is not None
+    at_peak = int(np.argmin(np.abs(s - shear.peak.position)))
+    near = slice(max(0, at_peak - len(s) // 40), at_peak + len(s) // 40 + 1)  # a twentieth of the travel
+    lid = np.mean(rows["sigma_kPa"])
+    half = len(s) // 2
+    return {
+        "peak": shear.at_peak.ratio,
+        "peak_mm": shear.peak.position,
+        "peak_smoothed": shear.smoothed.value / shear.sigma,
+        "peak_plane": plane.peak.value / plane.sigma_at_peak,
+        "mean": float(np.mean(rows["tau_kPa"]) / lid),
+        "mean_plane": float(np.mean(rows["plane_tau_kPa"]) / np.mean(rows["plane_kPa"])),
+        "end": shear.at_end.ratio,
+        "sharpness": shear.peak.value / float(np.mean(rows["tau_kPa"][ultimate_rows(len(s))])),
+        "dilation_deg": shear.at_peak.dilation_deg,
+        "steepest": steepest_dilatancy(shear.lid)[1],
+        "highest_mm": float(np.max(rows["lid_mm"])),
+        "late_rate": float((rows["lid_mm"][-1] - rows["lid_mm"][half]) / (s[-1] - s[half])),
+        "trm": float(rows["trm"][-1]),
+        "roughness": float(np.std(rows["tau_kPa"] - shear.tau.series(s)) / np.mean(rows["tau_kPa"])),
+        "inertial": float(np.mean(rows["inertial"])),
+        "coordination": float(shear.data["coordination"][0]),
+        "solid": bed["solid_fraction"],
+        "sides_rest": float(shear.data["sides_upper_kPa"][0] / lid),
+        "sides_peak": float(np.mean(rows["sides_upper_kPa"][near]) / lid),
+        "flanges_peak": float(np.mean(rows["flanges_upper_kPa"][near]) / lid),
+    }
