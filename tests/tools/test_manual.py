@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The manual: it builds without a warning, holds what the sources say, and can be read on a phone."""
+
+import html
+import importlib.util
+import json
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+from test_page import MISSING, chromium
+
+from shearbox_tools.parameters import parameters
+
+ROOT = Path(__file__).resolve().parents[2]
+NEEDED = [name for name in ("sphinx", "myst_parser", "furo") if importlib.util.find_spec(name) is None]
+pytestmark = pytest.mark.skipif(
+    bool(NEEDED),
+    reason=f"no {', '.join(NEEDED)}: tools/setup --ci installs python3-sphinx, python3-myst-parser and furo",
+)
+
+
+@pytest.fixture(name="manual", scope="module")
+def _manual(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Links that lead nowhere, and formulas that cannot be read, are errors."""
+    folder = tmp_path_factory.mktemp("manual")
+    built = subprocess.run([ROOT / "tools" / "manual", folder], capture_output=True, text=True, timeout=120)
+    assert built.returncode == 0, built.stderr
+    return folder
+
+
+def text(page: Path) -> str:
+    """What is to be read on a page."""
+    return html.unescape(re.sub(r"<[^>]+>", "", page.read_text(encoding="utf-8")))
+
+
+def test_every_style_has_its_page(manual: Path) -> None:
+    """With the first line of its header, and the last."""
+    headers = re.findall(r"^\| \[.*?\]\((src/.*?\.h)\)", (ROOT / "README.md").read_text(encoding="utf-8"), re.MULTILINE)
+    assert len(headers) > 15
+    for header in headers:
+        lines = (ROOT / header).read_text(encoding="utf-8").split("#pragma once")[0].splitlines()
+        said = " ".join(text(manual / "generated" / f"{Path(header).stem}.html").split())
+        for line in (lines[1], lines[-1]):
+            assert " ".join(line.lstrip("/ ").split()) in said, header
+
+
+def test_every_parameter_and_column_is_told(manual: Path) -> None:
+    page, columns = (text(manual / "generated" / f"{name}.html") for name in ("parameters", "columns"))
+    for name, parameter in parameters().items():
+        assert name in page and parameter.allowed in page
+    titles = re.search(r'title "# (.*?)"', (ROOT / "input" / "shear.in").read_text(encoding="utf-8"), re.DOTALL)
+    assert titles
+    for name in titles[1].replace("&", " ").split():
+        assert name in columns or re.match(r"(stress|fabric)_", name), name
+
+
+def test_formulas_are_formulas(manual: Path) -> None:
+    source = (ROOT / "manual" / "numbers.md").read_text(encoding="utf-8")
+    wanted = len(re.findall(r"\$\$.*?\$\$|\$[^$]+\$", source, re.DOTALL))
+    page = (manual / "numbers.html").read_text(encoding="utf-8")
+    assert page.count("<math") == wanted > 10 and "<msqrt>" in page
+
+
+@pytest.mark.skipif(bool(MISSING), reason="no chromium: tools/setup --ci installs it")
+def test_on_a_phone(manual: Path, tmp_path: Path) -> None:
+    """No page is wider than the screen; what is wide scrolls by itself."""
+    pages = sorted(path for path in manual.rglob("*.html") if "_static" not in path.parts)
+    frames = "".join(
+        f'<iframe style="width: 390px; height: 800px; border: 0" src="{page.as_uri()}"></iframe>' for page in pages
+    )
+    look = "[...document.querySelectorAll('iframe')].map(f => f.contentDocument.documentElement.scrollWidth)"
+    tell = f"onload = () => {{ const found = JSON.stringify({look}); document.body.textContent = found; }}"
+    harness = tmp_path / "harness.html"
+    harness.write_text(f'<!DOCTYPE html><meta charset="utf-8"><body>{frames}<script>{tell}</script>', encoding="utf-8")
+    shown = chromium(tmp_path, "--allow-file-access-from-files", "--dump-dom", harness.as_uri())
+    body = re.search(r"<body>(.*)</body>", shown, re.DOTALL)
+    assert body
+    widths = dict(zip((str(page.relative_to(manual)) for page in pages), json.loads(body[1])))
+    assert len(widths) > 25 and {name: width for name, width in widths.items() if width > 390} == {}
