@@ -86,7 +86,7 @@ def _parsed(path: Path, where: str, table: Options, parse: Callable[[list[str]],
     words = [str(table["model"])] if "model" in table else ["-"]
     for name, value in table.items():
         if name != "model":
-            words += _words(name, value)
+            words += words_of(name, value)
     try:
         options = parse(words)
     except InputError as error:
@@ -94,7 +94,7 @@ def _parsed(path: Path, where: str, table: Options, parse: Callable[[list[str]],
     return options if "model" in table else {name: value for name, value in options.items() if name != "model"}
 
 
-def _words(name: str, value: Any) -> list[str]:
+def words_of(name: str, value: Any) -> list[str]:
     """An option of the command line; true is one without a value, false is none."""
     if isinstance(value, bool):
         return [f"--{name}"] * value

@@ -270,6 +270,16 @@ def _run(options: argparse.Namespace) -> None:
     run(options, _asked(options))
 
 
+def parse_run(words: list[str]) -> tuple[argparse.Namespace, list[dict[str, Any]]]:
+    """A command line of `run` without the command, and what it asks for."""
+    from .campaign_file import OptionParser
+
+    parser = OptionParser(prog="run", add_help=False, argument_default=argparse.SUPPRESS)
+    _add_what_to_run(parser)
+    options = parser.parse_args(words)
+    return options, _asked(options)
+
+
 def _asked(options: argparse.Namespace) -> list[dict[str, Any]]:
     """What is asked for, of each run or ensemble."""
     from .campaign_file import OptionParser, is_campaign, read_campaign

@@ -15,7 +15,7 @@ from rich.console import Console
 
 from .campaign import Campaign
 from .checks import check
-from .display import Whole, duration, make_display
+from .display import Display, Whole, duration, make_display
 from .engine import PROGRAM, Engine, Failure, free_bytes
 from .errors import InputError, ShearboxError
 from .files import RECORD
@@ -112,14 +112,22 @@ def tests_of(runs: list[Run]) -> int:
     return sum(len(one.request.stresses) for one in runs)
 
 
-def carry_out(runs: list[Run], engine: Engine, jobs: int, locks: Mapping[Path, int], console: Console) -> list[str]:
-    """Work through the runs, whose folders are locked and open; what has failed is returned.
+def carry_out(
+    runs: list[Run],
+    engine: Engine,
+    jobs: int,
+    locks: Mapping[Path, int],
+    console: Console,
+    display: Display | None = None,
+) -> list[str]:
+    """Work through the runs, whose folders are locked and open; what has failed is returned. Progress is shown on the console,
+    unless there is another display.
 
     Asked to end by SIGUSR1, it does so with restart files of now, and raises KeyboardInterrupt.
     """
     forecasts = [Forecast(one.folder, one.request) for one in runs]
     _say(console, f"left: {total(forecasts, jobs)}")
-    display = make_display(console, _whole(runs, forecasts))
+    display = display or make_display(console, whole(runs))
     campaign = Campaign(runs, engine, display, locks)
     signal.signal(signal.SIGUSR1, lambda *_: campaign.end())
     try:
@@ -228,7 +236,9 @@ def forecast_text(runs: list[Run], forecasts: list[Forecast]) -> str:
     return "\n".join(lines)
 
 
-def _whole(runs: list[Run], forecasts: list[Forecast]) -> Whole:
+def whole(runs: list[Run]) -> Whole:
+    """All their phases, with what is done of them."""
+    forecasts = [Forecast(one.folder, one.request) for one in runs]
     phases = [
         (one.label(phase), forecast, phase) for one, forecast in zip(runs, forecasts) for phase in forecast.phases
     ]
