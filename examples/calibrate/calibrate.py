@@ -41,7 +41,7 @@ def strength(friction: float, options: argparse.Namespace) -> float:
 def main() -> None:
     """Finds it, and draws what was tried."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--target", type=float, default=32, help="wanted friction angle, degrees (default: 32)")
+    parser.add_argument("--target", type=float, default=27, help="wanted friction angle, degrees (default: 27)")
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3, 4], help="packings (default: 1 2 3 4)")
     parser.add_argument("--speed", type=float, default=100, help="shear speed, mm/s (default: 100)")
     parser.add_argument("--out", type=Path, default=ROOT / "results" / "calibrate", help="default: results/calibrate")
@@ -52,6 +52,11 @@ def main() -> None:
         tried[friction] = strength(friction, options)
         return tried[friction] - options.target
 
+    low, high = (misses(end) + options.target for end in BETWEEN)
+    if not low < options.target < high:
+        raise ValueError(
+            f"--target {options.target:g}: between {low:.1f} and {high:.1f}° are reached, by φ_μ from {BETWEEN[0]:g} to {BETWEEN[1]:g}°"
+        )
     found = brentq(misses, *BETWEEN, xtol=1.0)
     print(f"φ_μ = {found:.0f}° gives φ = {options.target:g}°")
     figure, axes = plt.subplots(figsize=(4.4, 3.4), layout="constrained")
