@@ -60,6 +60,7 @@ def make_parser() -> argparse.ArgumentParser:
     _add_parameters(commands)
     _add_run(commands)
     _add_report(commands)
+    _add_compare(commands)
     _add_export(commands)
     _add_film(commands)
     _add_submit(commands)
@@ -195,6 +196,20 @@ def _add_report(commands: Commands) -> None:
     report.set_defaults(command=_report)
 
 
+def _add_compare(commands: Commands) -> None:
+    compare = commands.add_parser(
+        "compare",
+        help="compare ensembles",
+        description="Write compare.html, compare.json and compare.csv: mean curves of the ensembles in the folders over each other, "
+        "strength, dilation angle and TRM, and their differences to the first with 95 %% intervals.",
+    )
+    compare.add_argument("folders", metavar="DIR", type=Path, nargs="+", help="folder of a run, or of several")
+    compare.add_argument(
+        "--out", metavar="OUT", type=Path, default=Path("compare"), help="folder of the files (default: compare)"
+    )
+    compare.set_defaults(command=_compare)
+
+
 def _add_export(commands: Commands) -> None:
     export = commands.add_parser(
         "export",
@@ -314,6 +329,12 @@ def _report(options: argparse.Namespace) -> None:
     from .reporting import report_on
 
     print(f"report: {report_on(options.folder, options.model, options.speed)}")
+
+
+def _compare(options: argparse.Namespace) -> None:
+    from .comparing import compare
+
+    print(f"compare: {compare(options.folders, options.out)}")
 
 
 def _export(options: argparse.Namespace) -> None:

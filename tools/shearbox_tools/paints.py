@@ -64,7 +64,7 @@ def mean_stress(moment: Moment, areas: np.ndarray) -> np.ndarray:
     """(discs,) of each disc's grain, N/m (over the thickness it is a pressure); nan of walls.
 
     Half the trace of Love's mean stress, -1/A times the sum over contacts of (x_c - x) f, with the force f on the grain at
-    x_c: the sum does not depend on x, where the grain is at rest (Bagi, Mech. Mater. 22 (1996) 165).
+    x_c: the sum does not depend on x, where the grain is at rest (Bagi, Mechanics of Materials 22 (1996) 165).
     """
     force = np.column_stack([moment.contacts["fx"], moment.contacts["fy"]])
     centre1, point, centre2 = np.moveaxis(moment.branches(), 1, 0)
