@@ -14,12 +14,17 @@ from pathlib import Path
 
 import pytest
 import synthetic
+from test_compare import specimens
 from test_ensemble_report import REQUEST, write_run
 
+from shearbox_tools.comparing import Member, write_comparison
+from shearbox_tools.ensemble_results import Ensemble
+from shearbox_tools.grouping import LeftOut
 from shearbox_tools.models import find_model
 from shearbox_tools.report import report
 from shearbox_tools.reporting import report_on
 from shearbox_tools.request import Request
+from shearbox_tools.results import read_results
 
 LAYOUT = Path(__file__).with_name("layout.js")
 STRESSES = (100.0, 200.0, 300.0, 400.0)
@@ -64,6 +69,16 @@ def _ensemble(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return report_on(folder)
 
 
+@pytest.fixture(name="comparison", scope="module")
+def _comparison(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Of three ensembles, the last of one specimen."""
+    folder = tmp_path_factory.mktemp("comparison")
+    base = read_results(write_run(folder / "run", replace(REQUEST, stresses=STRESSES[:2])))
+    every = [specimens(base, [1, 2, 3]), specimens(base, [1, 2, 3], 0.1), specimens(base, [4], 0.2)]
+    members = [Member(folder / name, Ensemble(runs)) for name, runs in zip(("dense", "fast", "loose"), every)]
+    return write_comparison(members, [LeftOut(folder / "stopped", "sheared to 4.00 mm only")], folder)
+
+
 def chromium(folder: Path, *arguments: str) -> str:
     """What it prints; without a sandbox, as root has to run it, and without a bus that it would wait for."""
     buses = {f"DBUS_{name}_BUS_ADDRESS": "unix:path=/dev/null" for name in ("SESSION", "SYSTEM")}
@@ -94,8 +109,8 @@ def faults(pages: list[tuple[str, int]], folder: Path) -> list[list[str]]:
     return found
 
 
-def test_on_screens(page: Path, ensemble: Path, tmp_path: Path) -> None:
-    shown = [(path, width) for path in (page, ensemble) for width in WIDTHS]
+def test_on_screens(page: Path, ensemble: Path, comparison: Path, tmp_path: Path) -> None:
+    shown = [(path, width) for path in (page, ensemble, comparison) for width in WIDTHS]
     found = faults([(path.read_text(encoding="utf-8"), width) for path, width in shown], tmp_path)
     assert dict(zip(shown, found)) == {each: [] for each in shown}
 
@@ -155,9 +170,9 @@ def output(*command: str | Path) -> str:
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
-def test_on_paper(page: Path, ensemble: Path, tmp_path: Path) -> None:
-    assert faults_on_paper(page, tmp_path) == []
-    assert faults_on_paper(ensemble, tmp_path) == []
+def test_on_paper(page: Path, ensemble: Path, comparison: Path, tmp_path: Path) -> None:
+    for path in (page, ensemble, comparison):
+        assert faults_on_paper(path, tmp_path) == [], path
 
 
 PAPER = (

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Effects with 95 % intervals, and what they say of a claim.
 
-Specimens are independent samples; an effect is a difference of means, a slope or a mean over specimens. Its interval is
-Student's: of one group over its specimens; of a difference by Welch (Biometrika 34 (1947) 28); of a difference in several
-boxes, each with a mean of its own, by least squares with one variance for all; of a slope, that of the regression.
+Specimens are independent samples; an effect is a mean over specimens, a difference of two (shearbox_tools/differences.py), one that
+is the same in several boxes, each with a mean of its own, by least squares with one variance for all, a slope, or a share.
 """
 
 from collections.abc import Sequence
@@ -12,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
+from shearbox_tools import differences
 from shearbox_tools.strength import COVERAGE
 
 CONFIRMED, CONTRADICTED, OPEN = "confirmed", "contradicted", "open"
@@ -42,24 +42,19 @@ def unknown(label: str, count: int = 0) -> Effect:
 
 def mean(label: str, values: np.ndarray) -> Effect:
     """Over specimens (n,)."""
-    error = np.std(values, ddof=1) / np.sqrt(len(values)) if len(values) > 1 else np.nan
-    return _effect(label, len(values), float(np.mean(values)), error, len(values) - 1)
+    return _known(label, len(values), differences.mean(values))
 
 
 def difference(label: str, first: np.ndarray, second: np.ndarray) -> Effect:
     """Mean of the second less that of the first."""
-    count = len(first) + len(second)
-    value = float(np.mean(second) - np.mean(first))
-    if min(len(first), len(second)) < 2:
-        return _effect(label, count, value, np.nan, 1)
-    variances = [np.var(values, ddof=1) / len(values) for values in (first, second)]
-    each = sum(v**2 / (len(values) - 1) for v, values in zip(variances, (first, second)))
-    return _effect(label, count, value, np.sqrt(sum(variances)), sum(variances) ** 2 / each if each else 1)
+    means = differences.mean(first), differences.mean(second)
+    return _known(label, len(first) + len(second), differences.difference(*means, paired=False))
 
 
 def paired(label: str, first: np.ndarray, second: np.ndarray) -> Effect:
     """The same of specimens that are the same packings, in order."""
-    return mean(label, second - first)
+    means = differences.mean(first), differences.mean(second)
+    return _known(label, len(first), differences.difference(*means, paired=True))
 
 
 def common_difference(label: str, pairs: Sequence[tuple[np.ndarray, np.ndarray]]) -> Effect:
@@ -90,6 +85,11 @@ def share(label: str, holds: int, judged: int) -> Effect:
         return unknown(label)
     interval = stats.binomtest(holds, judged).proportion_ci(COVERAGE, "wilson")
     return Effect(label, judged, holds / judged, float(interval.low), float(interval.high))
+
+
+def _known(label: str, count: int, of: differences.Mean | differences.Difference) -> Effect:
+    low, high = (np.nan if end is None else end for end in (of.low, of.high))
+    return Effect(label, count, of.value, low, high)
 
 
 def _effect(label: str, count: int, value: float, error: float, freedom: float) -> Effect:

@@ -2,18 +2,16 @@
 """What each specimen of a campaign has measured: one number of each kind a test, and strengths over its stresses."""
 
 from collections.abc import Iterable
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
-from os import sched_getaffinity
 from pathlib import Path
 
 import numpy as np
 
 from shearbox_tools.ensemble import lines_of
 from shearbox_tools.ensemble_results import Ensemble
-from shearbox_tools.errors import ShearboxError
 from shearbox_tools.features import steepest_dilatancy
-from shearbox_tools.results import Results, read_results
+from shearbox_tools.reading import read_all, read_quietly
+from shearbox_tools.results import Results
 from shearbox_tools.shear import Shear
 from shearbox_tools.specimens import find_runs
 from shearbox_tools.stress_dilatancy import ultimate_rows
@@ -87,17 +85,10 @@ class Group:
 def read_groups(folder: Path) -> dict[str, Group]:
     """By the names of the entries, in the order of the folder; what is not complete is left out."""
     places = find_runs(folder) if folder.is_dir() else []
-    with ProcessPoolExecutor(len(sched_getaffinity(0))) as pool:
-        every = [results for results in pool.map(_read, places) if results is not None]
+    every = [
+        run for run in read_all(places, read_quietly)[0] if run.complete and run.knows_plane and len(run.shears) > 1
+    ]
     return {name: _group(name, runs) for name, runs in _by_entry(folder, every).items()}
-
-
-def _read(place: Path) -> Results | None:
-    try:
-        results = read_results(place)
-    except ShearboxError:
-        return None
-    return results if results.complete and results.knows_plane and len(results.shears) > 1 else None
 
 
 def _by_entry(folder: Path, every: Iterable[Results]) -> dict[str, list[Results]]:

@@ -15,11 +15,18 @@ SCALE_WIDTH = 3.6  # of the scale of colours, inches
 
 
 def empty_picture(low: np.ndarray, high: np.ndarray) -> tuple[Figure, Axes]:
-    """A picture to scale from the corner low to the corner high, (2,) each, m; the strip, with scale bar and arrow of shear,
-    is its lowest part."""
+    """A picture to scale from the corner low to the corner high, (2,) each, m, as `furnish` has it."""
     width, height = high - low
     figure = Figure(figsize=(PICTURE_WIDTH, PICTURE_WIDTH * height / width))
     axes = figure.add_axes((0, 0, 1, 1))
+    furnish(axes, low, high)
+    return figure, axes
+
+
+def furnish(axes: Axes, low: np.ndarray, high: np.ndarray) -> None:
+    """What axes of a picture have: its corners, (2,) each, m; the strip, with scale bar and arrow of shear, is the lowest
+    part."""
+    width, height = high - low
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
     axes.axis("off")
     bar = round_down(1000 * width / 5)
@@ -29,7 +36,6 @@ def empty_picture(low: np.ndarray, high: np.ndarray) -> tuple[Figure, Axes]:
         "shear", (0.66, middle), (0.45, middle), xycoords="axes fraction", va="center", fontsize=STRIP_FONT, color=INK,
         arrowprops={"arrowstyle": "-|>", "lw": 1.8, "color": INK, "mutation_scale": 16},
     )  # fmt: skip
-    return figure, axes
 
 
 def draw_key(axes: Axes, ends: tuple[float, float], text: str, lw: float, color: str, capstyle: str = "round") -> None:
@@ -45,12 +51,15 @@ def draw_key(axes: Axes, ends: tuple[float, float], text: str, lw: float, color:
 def colour_scale(colours: Normalize, colormap: Colormap, title: str, extend: str = "both") -> Figure:
     """A bar with the values of colours; extend: at which ends values go on, as in matplotlib."""
     figure = Figure(figsize=(SCALE_WIDTH, 0.6), layout="constrained")
-    bar = figure.colorbar(
-        ScalarMappable(colours, colormap), cax=figure.add_subplot(), orientation="horizontal", extend=extend
-    )
+    draw_scale(figure.add_subplot(), colours, colormap, title, extend)
+    return figure
+
+
+def draw_scale(axes: Axes, colours: Normalize, colormap: Colormap, title: str, extend: str = "both") -> None:
+    """The same on axes of a figure."""
+    bar = axes.figure.colorbar(ScalarMappable(colours, colormap), cax=axes, orientation="horizontal", extend=extend)
     bar.set_label(title)
     bar.outline.set_visible(False)
-    return figure
 
 
 def round_down(value: float) -> float:

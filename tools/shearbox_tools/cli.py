@@ -14,7 +14,7 @@ from typing import Any
 
 from . import __version__
 from .errors import InputError, ShearboxError
-from .presets import DENSITIES, FORM, FORMATS, LAWS, PACKING_FRICTION, REFERENCE, SPEEDS
+from .presets import COLOURINGS, DENSITIES, FILMS, FORM, FORMATS, LAWS, PACKING_FRICTION, REFERENCE, SPEEDS
 
 Commands = argparse._SubParsersAction  # argparse has no public name for it
 DEPENDENCIES = {"numpy": "python3-numpy", "scipy": "python3-scipy", "matplotlib": "python3-matplotlib",
@@ -60,7 +60,9 @@ def make_parser() -> argparse.ArgumentParser:
     _add_parameters(commands)
     _add_run(commands)
     _add_report(commands)
+    _add_compare(commands)
     _add_export(commands)
+    _add_film(commands)
     _add_submit(commands)
     _add_jobs(commands)
     return parser
@@ -194,6 +196,20 @@ def _add_report(commands: Commands) -> None:
     report.set_defaults(command=_report)
 
 
+def _add_compare(commands: Commands) -> None:
+    compare = commands.add_parser(
+        "compare",
+        help="compare ensembles",
+        description="Write compare.html, compare.json and compare.csv: mean curves of the ensembles in the folders over each other, "
+        "strength, dilation angle and TRM, and their differences to the first with 95 %% intervals.",
+    )
+    compare.add_argument("folders", metavar="DIR", type=Path, nargs="+", help="folder of a run, or of several")
+    compare.add_argument(
+        "--out", metavar="OUT", type=Path, default=Path("compare"), help="folder of the files (default: compare)"
+    )
+    compare.set_defaults(command=_compare)
+
+
 def _add_export(commands: Commands) -> None:
     export = commands.add_parser(
         "export",
@@ -205,11 +221,31 @@ def _add_export(commands: Commands) -> None:
     export.add_argument("folder", metavar="DIR", type=Path, help="folder of runs, or of tests by hand")
     export.add_argument("--to", choices=FORMATS, required=True, help="format")
     export.add_argument("--out", metavar="OUT", type=Path, help="folder of the files (default: DIR/export)")
-    export.add_argument("--stress", metavar="KPA", type=_stress, nargs="+", action="extend", default=[],
-                        help="normal stresses, kPa (default: all there are)")  # fmt: skip
-    export.add_argument("--frames", metavar="FRAMES",
-                        help="number of a frame, or FROM:TO:EVERY, TO left out; -1 is the last (default: all)")  # fmt: skip
+    _add_stress_and_frames(export)
     export.set_defaults(command=_export)
+
+
+def _add_stress_and_frames(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--stress", metavar="KPA", type=_stress, nargs="+", action="extend", default=[],
+                        help="normal stresses, kPa (default: all there are)")  # fmt: skip
+    parser.add_argument("--frames", metavar="FRAMES",
+                        help="number of a frame, or FROM:TO:EVERY, TO left out; -1 is the last (default: all)")  # fmt: skip
+
+
+def _add_film(commands: Commands) -> None:
+    film = commands.add_parser(
+        "film",
+        help="make films of the specimens",
+        description="Make a film of each test in DIR: the specimen to scale, and shear stress and lid as far as they have come. "
+        "It is STRESS/film.FORMAT, or film_speed.FORMAT and so on.",
+    )
+    film.add_argument("folder", metavar="DIR", type=Path, help="folder of runs, or of tests by hand")
+    film.add_argument("--by", choices=COLOURINGS, default=COLOURINGS[0],
+                      help="what grains are coloured by; chains: lines as wide as forces are great (default: rotation)")  # fmt: skip
+    film.add_argument("--format", choices=FILMS, default=FILMS[0],
+                      help="mp4 (H.264) and webm need ffmpeg, gif does not (default: mp4)")  # fmt: skip
+    _add_stress_and_frames(film)
+    film.set_defaults(command=_film)
 
 
 def _add_submit(commands: Commands) -> None:
@@ -305,11 +341,24 @@ def _report(options: argparse.Namespace) -> None:
     print(f"report: {report_on(options.folder, options.model, options.speed)}")
 
 
+def _compare(options: argparse.Namespace) -> None:
+    from .comparing import compare
+
+    print(f"compare: {compare(options.folders, options.out)}")
+
+
 def _export(options: argparse.Namespace) -> None:
     from .export import export
 
     for folder in export(options.folder, options.to, options.out, options.stress, options.frames):
         print(f"export: {folder}")
+
+
+def _film(options: argparse.Namespace) -> None:
+    from .filming import make_films
+
+    for path in make_films(options.folder, options.by, options.format, options.stress, options.frames):
+        print(f"film: {path}")
 
 
 def _submit(options: argparse.Namespace) -> None:

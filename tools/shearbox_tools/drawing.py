@@ -78,29 +78,33 @@ def _largest_force(stills: Stills) -> float:
 
 
 def _rotation(stills: Stills, moment: Moment, turned: Normalize) -> Figure:
-    figure, axes = empty_picture(*_extent(list(stills.moments.values())))
+    figure, axes = empty_picture(*extent(list(stills.moments.values())))
     rotation = np.degrees(moment.rotation_since(stills.before))
-    _draw_discs(axes, moment, ROTATIONS(turned(rotation)))
+    draw_discs(axes, moment, ROTATIONS(turned(rotation)))
     return figure
 
 
 def _forces(stills: Stills, moment: Moment, widest: float) -> Figure:
+    figure, axes = empty_picture(*extent(list(stills.moments.values())))
+    draw_chains(axes, moment, widest)
+    return figure
+
+
+def draw_chains(axes: Axes, moment: Moment, widest: float) -> None:
     """A line from grain to grain through their contact, as wide as its normal force is great, over faint discs.
 
     widest: force (N) of the widest line.
     """
-    figure, axes = empty_picture(*_extent(list(stills.moments.values())))
-    _draw_discs(axes, moment, np.tile(_rgba("#f1f3f5"), (len(moment.discs["id"]), 1)), outline="#d5dade")
+    draw_discs(axes, moment, np.tile(_rgba("#f1f3f5"), (len(moment.discs["id"]), 1)), outline="#d5dade")
     widths = WIDEST_LINE * np.clip(moment.contacts["fn"], 0, None) / widest
     lines = list(moment.branches())
     style = {"colors": FORCE_COLOUR, "capstyle": "round", "joinstyle": "round"}
     axes.add_collection(LineCollection(lines, linewidths=widths, **style))
     key = round_down(widest / 2)
     draw_key(axes, (0.7, 0.78), f"{key:g} N", lw=WIDEST_LINE * key / widest, color=FORCE_COLOUR)
-    return figure
 
 
-def _extent(moments: list[Moment]) -> tuple[np.ndarray, np.ndarray]:
+def extent(moments: list[Moment]) -> tuple[np.ndarray, np.ndarray]:
     """(2,) lowest and highest corner of a picture, m: box and strip; of the walls above the lid a little only."""
     x, y, radius = (np.concatenate([m.discs[name] for m in moments]) for name in ("x", "y", "radius"))
     walls = np.concatenate([m.walls for m in moments])
@@ -111,8 +115,8 @@ def _extent(moments: list[Moment]) -> tuple[np.ndarray, np.ndarray]:
     return low, np.array([right + aside, min(top, np.max(y + radius))])
 
 
-def _draw_discs(axes: Axes, moment: Moment, colours: np.ndarray, outline: str = OUTLINE_COLOUR) -> None:
-    """Grain after grain, first all its discs in the outline's colour, then smaller ones: a grain has one outline.
+def draw_discs(axes: Axes, moment: Moment, colours: np.ndarray, outline: str = OUTLINE_COLOUR) -> None:
+    """Discs in their colours (discs, 4), those of walls in grey. Grain after grain, first all its discs in the outline's colour, then smaller ones: a grain has one outline.
 
     A wall of two discs is a piece of a smooth wall: what lies between them is of it, too.
     """

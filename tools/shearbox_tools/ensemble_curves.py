@@ -22,8 +22,8 @@ Limits = tuple[float, float]
 def draw_ensembles(ensembles: Sequence[Ensemble]) -> list[dict[str, str]]:
     """For each ensemble its diagrams, SVG as data: URIs: 'stress SIGMA', 'lid SIGMA', 'strength'."""
     every = [curve for ensemble in ensembles for curve in ensemble.curves.values()]
-    ratio = _limits([(curve.tau, curve.sigma) for curve in every], 0.0)
-    lid = _limits([(curve.lid, 1.0) for curve in every], 0.0)
+    ratio = limits_of([(curve.tau, curve.sigma) for curve in every], 0.0)
+    lid = limits_of([(curve.lid, 1.0) for curve in every], 0.0)
     drawn = []
     with rc_context(RC):
         for ensemble in ensembles:
@@ -38,7 +38,7 @@ def draw_ensembles(ensembles: Sequence[Ensemble]) -> list[dict[str, str]]:
     return drawn
 
 
-def _limits(bands: Sequence[tuple[Band, float]], include: float) -> Limits:
+def limits_of(bands: Sequence[tuple[Band, float]], include: float) -> Limits:
     """A scale on which all of them are seen, each over its number."""
     ends = [
         edge / over

@@ -1,10 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The report on many runs: report.html, summary.json, a table of mean curves for each ensemble; and each run's own."""
 
-import signal
 from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor
-from os import sched_getaffinity
 from pathlib import Path
 
 from .ensemble_curves import draw_ensembles
@@ -15,8 +12,9 @@ from .files import PAGE, SUMMARY, write_json, write_text
 from .grouping import LeftOut, put_together
 from .mean_curve import as_csv
 from .page import render
+from .reading import read_all, read_quietly
 from .report import write_report
-from .results import Results, read_results
+from .results import Results
 
 TEMPLATE = "ensemble.html.j2"
 
@@ -33,7 +31,7 @@ def report_on_runs(
 
     Raises ShearboxError after writing if files are damaged, and without writing if no run is complete.
     """
-    read, unread = _read_all(runs, each)
+    read, unread = read_all(runs, _read_and_report if each else read_quietly)
     ensembles, incomplete = put_together([*read, *others])
     unread += damaged
     left_out = [*unread, *incomplete]
@@ -53,37 +51,13 @@ def report_on_runs(
     return page
 
 
-def _read_all(folders: Sequence[Path], each: bool) -> tuple[list[Results], list[LeftOut]]:
-    """Read runs, and write their own reports or not, as many at a time as there are cores."""
-    read: list[Results] = []
-    unread: list[LeftOut] = []
-    with ProcessPoolExecutor(len(sched_getaffinity(0)), initializer=_end_at_once) as pool:
-        results = [pool.submit(_read_one, folder, each) for folder in folders]
-        try:
-            for folder, result in zip(folders, (future.result() for future in results)):
-                if isinstance(result, Results):
-                    read.append(result)
-                else:
-                    unread.append(LeftOut(folder, result))
-        finally:
-            pool.shutdown(cancel_futures=True)
-    return read, unread
-
-
-def _end_at_once() -> None:
-    """When it is stopped: the program that started this process has a message for that."""
-    for sign in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(sign, signal.SIG_DFL)
-
-
-def _read_one(folder: Path, each: bool) -> Results | str:
-    """A run, of which a report is written if it is wanted and there is anything to tell; or why it cannot be read."""
+def _read_and_report(folder: Path) -> Results | str:
+    """A run, of which a report is written if there is anything to tell; or why it cannot be read."""
+    results = read_quietly(folder)
+    if isinstance(results, str):
+        return results
     try:
-        results = read_results(folder)
-    except ShearboxError as error:
-        return str(error)
-    try:
-        if each and results.shears:
+        if results.shears:
             write_report(results)
     except ShearboxError as error:
         if not results.problems:  # these are told with the ensemble

@@ -25,6 +25,20 @@ RELATIONS: dict[str, Callable[[Dilatant], float | None]] = {
 }
 
 
+def _peak_on_plane(shear: Shear) -> tuple[float, float]:
+    assert shear.plane is not None
+    return shear.plane.sigma_at_peak, shear.plane.peak.value
+
+
+PEAKS: dict[
+    str, Callable[[Shear], tuple[float, float]]
+] = {  # (sigma, tau) in kPa of the polynomial, of the smoothed data, ...
+    "lid": lambda shear: (shear.sigma, shear.peak.value),
+    "smoothed": lambda shear: (shear.sigma, shear.smoothed.value),
+    "plane": _peak_on_plane,
+}
+
+
 @dataclass(frozen=True)
 class Ensemble:
     """At least one specimen, each complete; a stress may be missing in some."""
@@ -82,29 +96,37 @@ class Ensemble:
     @cached_property
     def strength(self) -> EnsembleStrength | None:
         """By the peaks of the polynomials."""
-        return self._strength(lambda shear: (shear.sigma, shear.peak.value))
+        return self._strength("lid")
 
     @cached_property
     def smoothed_strength(self) -> EnsembleStrength | None:
         """By those of the smoothed data."""
-        return self._strength(lambda shear: (shear.sigma, shear.smoothed.value))
+        return self._strength("smoothed")
 
     @cached_property
     def plane_strength(self) -> EnsembleStrength | None:
         """By the stresses on the shear plane, where these are known: by the peaks of their polynomials."""
-        if not all(specimen.knows_plane for specimen in self.specimens):
-            return None
-        return self._strength(_peak_on_plane)
+        return self._strength("plane") if self.knows_plane else None
 
-    def _strength(self, point: Callable[[Shear], tuple[float, float]]) -> EnsembleStrength | None:
-        """Of points (sigma, tau) in kPa."""
-        if self.doubts:
-            return None
+    @property
+    def knows_plane(self) -> bool:
+        """Whether the stresses on the shear plane are known of all specimens."""
+        return all(specimen.knows_plane for specimen in self.specimens)
+
+    def peaks(self, by: str) -> tuple[np.ndarray, np.ndarray]:
+        """sigma and tau (kPa) of the peaks by one of PEAKS: of shared packings (specimens, stresses), at those that all
+        have; of independent ones (peaks,)."""
+        point = PEAKS[by]
         if self.independent:
             sigma, tau = np.array([point(shear) for shears in self.shears.values() for shear in shears]).T
-            return strength_of_independent(sigma, tau)
-        sigma, tau = np.array([[point(shear) for shear in self.shears[sigma]] for sigma in self.common]).T
-        return strength_of_shared(sigma, tau)
+        else:
+            sigma, tau = np.array([[point(shear) for shear in self.shears[sigma]] for sigma in self.common]).T
+        return sigma, tau
+
+    def _strength(self, by: str) -> EnsembleStrength | None:
+        if self.doubts:
+            return None
+        return (strength_of_independent if self.independent else strength_of_shared)(*self.peaks(by))
 
     @cached_property
     def ultimate_angle(self) -> Estimate | None:
@@ -196,8 +218,3 @@ def _dilates(shears: Sequence[Shear]) -> Verdict:
         f"to {rise.high:+.3f} mm"
     )
     return Verdict(None if rise.low <= 0 < rise.high else bool(rise.low > 0), reason)
-
-
-def _peak_on_plane(shear: Shear) -> tuple[float, float]:
-    assert shear.plane is not None
-    return shear.plane.sigma_at_peak, shear.plane.peak.value

@@ -6,10 +6,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from .errors import InputError, ShearboxError
-from .files import SHEAR_TABLE, write_text
+from .files import write_text
 from .readers import Columns
-from .specimen import missing_frames
-from .specimens import find_runs
+from .selection import choose, find_tests
 from .table_files import write_csv, write_ovito, write_parquet
 from .tables import GRID, Instant, Tables
 
@@ -23,11 +22,12 @@ TIMES = "frames.csv"  # the series of all formats
 def export(folder: Path, form: str, out: Path | None, stresses: Sequence[float], frames: str | None) -> list[Path]:
     """Write the frames of all tests in a folder, or of those of the stresses (kPa); the folders written are returned.
 
-    frames: see `choose`. What cannot be done is refused before anything is written. A file is whole or not there, and the
+    frames: see `selection.choose`. What cannot be done is refused before anything is written. A file is whole or not there, and the
     series is written last; written again, files are replaced.
     """
     _require_modules(form)
-    chosen = [(place, tables, choose(frames, tables.steps)) for place, tables in _open(_tests(folder, stresses))]
+    opened = [(place, Tables(place)) for place in find_tests(folder, stresses)]
+    chosen = [(place, tables, choose(frames, tables.steps)) for place, tables in opened]
     written = []
     for place, tables, steps in chosen:
         target = (out or folder / "export") / form / place.relative_to(folder)
@@ -36,45 +36,12 @@ def export(folder: Path, form: str, out: Path | None, stresses: Sequence[float],
     return written
 
 
-def choose(frames: str | None, steps: list[int]) -> list[int]:
-    """Steps of the frames that are asked for: all, or FROM:TO:EVERY as in Python, or one by its number; -1 is the last."""
-    if frames is None:
-        return steps
-    try:
-        parts = [int(part) if part else None for part in frames.split(":")]
-        chosen = steps[slice(*parts)] if len(parts) > 1 else [steps[int(frames)]]
-    except (ValueError, TypeError, IndexError):
-        chosen = []
-    if not chosen:
-        raise InputError(f"--frames {frames}: a number, or FROM:TO:EVERY, of 0 to {len(steps) - 1} is expected")
-    return chosen
-
-
 def _require_modules(form: str) -> None:
     for module, hint in NEEDS.get(form, {}).items():
         try:
             importlib.import_module(module)
         except ImportError as error:
             raise InputError(f"--to {form}: {error}; {hint}") from error
-
-
-def _tests(folder: Path, stresses: Sequence[float]) -> list[Path]:
-    """Folders of shear phases, by hand or of runs."""
-    found = find_runs(folder, (SHEAR_TABLE,))
-    if not found:
-        raise ShearboxError(f"{folder} holds no test: there is no {SHEAR_TABLE} in it, nor below it")
-    names = {f"{sigma:g}" for sigma in stresses}
-    if unknown := sorted(names - {place.name for place in found}):
-        there = " ".join(sorted({place.name for place in found}))
-        raise InputError(f"--stress {' '.join(unknown)}: the folders of tests in {folder} are {there}")
-    return [place for place in found if not names or place.name in names]
-
-
-def _open(places: list[Path]) -> list[tuple[Path, Tables]]:
-    for place in places:
-        if missing := missing_frames(place):
-            raise ShearboxError(f"{place}: there is no {', '.join(missing)}, so there are no frames to export")
-    return [(place, Tables(place)) for place in places]
 
 
 def _write_test(target: Path, form: str, tables: Tables, steps: list[int]) -> None:

@@ -12,6 +12,8 @@ SPEEDS = {REFERENCE: 2.0, "standard": 10.0, "fast": 200.0}  # mm/s; the referenc
 STRESSES = (1, 5000)  # kPa: normal stresses from and to
 
 FORMATS = ("vtk", "ovito", "csv", "parquet")  # of shearbox export
+FILMS = ("mp4", "webm", "gif")  # formats of shearbox film
+COLOURINGS = ("rotation", "speed", "stress", "chains")  # what its films show
 PACKING_FRICTION = "phi_packing"  # the variable that --density chooses
 DENSITIES = {"dense": 0.0, "medium": 10.0, "loose": 45.0}  # degrees
 

@@ -19,14 +19,19 @@ def report_on(folder: Path, model: str | None = None, speed: float | None = None
     if (folder / RECORD).exists():
         _refuse_options(folder, model, speed)
         return report(folder)
+    runs, by_hand = runs_and_tests(folder)
+    if not by_hand:
+        _refuse_options(folder, model, speed)
+    return report_on_runs(folder, runs, *read_by_hand(by_hand, model, speed), each=each)
+
+
+def runs_and_tests(folder: Path) -> tuple[list[Path], list[Path]]:
+    """Folders of runs, and of tests run by hand; at least one."""
     found = find_runs(folder, (RECORD, SHEAR_TABLE))
     if not found:
         raise ShearboxError(f"{folder} holds no run: there is no {RECORD} in it, nor below it, and no {SHEAR_TABLE}")
     runs = [place for place in found if (place / RECORD).exists()]
-    by_hand = [place for place in found if place not in runs]
-    if not by_hand:
-        _refuse_options(folder, model, speed)
-    return report_on_runs(folder, runs, *read_by_hand(by_hand, model, speed), each=each)
+    return runs, [place for place in found if place not in runs]
 
 
 def _refuse_options(folder: Path, model: str | None, speed: float | None) -> None:

@@ -52,12 +52,23 @@ def missing_frames(folder: Path) -> list[str]:
 
 
 class Film:
-    """The dumps of one shear phase; displacements (mm) of the frames come from the table of the phase."""
+    """The dumps of one shear phase; displacements (mm) of the frames come from the table of the phase.
 
-    def __init__(self, folder: Path, steps: np.ndarray, displacements: np.ndarray) -> None:
-        self._grains = Dump(folder / GRAINS_DUMP, GRAINS)
-        self._discs = Dump(folder / DISCS_DUMP, DISCS)
-        self._contacts = Dump(folder / CONTACTS_DUMP, CONTACTS)
+    grains, discs, contacts: columns that are read.
+    """
+
+    def __init__(
+        self,
+        folder: Path,
+        steps: np.ndarray,
+        displacements: np.ndarray,
+        grains: tuple[str, ...] = GRAINS,
+        discs: tuple[str, ...] = DISCS,
+        contacts: tuple[str, ...] = CONTACTS,
+    ) -> None:
+        self._grains = Dump(folder / GRAINS_DUMP, grains)
+        self._discs = Dump(folder / DISCS_DUMP, discs)
+        self._contacts = Dump(folder / CONTACTS_DUMP, contacts)
         cells = folder / CELLS_DUMP
         self._cells = Dump(cells, CELLS) if cells.exists() else None
         first = self._discs.nearest(0)
@@ -65,19 +76,25 @@ class Film:
         self._steps = np.concatenate([[first], steps - np.diff(steps, prepend=first) / 2])
         self._displacements = np.concatenate([[0.0], displacements])
 
+    @property
+    def steps(self) -> list[int]:
+        """Of the frames, ascending."""
+        return self._discs.steps
+
     def at(self, displacement: float) -> Moment:
         """The frame nearest to a displacement (mm)."""
-        return self._moment(float(np.interp(displacement, self._displacements, self._steps)))
+        return self.moment(float(np.interp(displacement, self._displacements, self._steps)))
 
     def first(self) -> Moment:
         """The specimen before shear."""
-        return self._moment(self._discs.steps[0])
+        return self.moment(self.steps[0])
 
     def last(self) -> Moment:
         """The specimen at the end, or as far as it has come."""
-        return self._moment(self._discs.steps[-1])
+        return self.moment(self.steps[-1])
 
-    def _moment(self, wanted: float) -> Moment:
+    def moment(self, wanted: float) -> Moment:
+        """The frame nearest to a step."""
         step = self._discs.nearest(wanted)
         displacement = float(np.interp(step, self._steps, self._displacements))
         grains, discs, contacts = (d.frame(d.nearest(step)) for d in (self._grains, self._discs, self._contacts))

@@ -22,6 +22,10 @@ class Look:
     dashes: Any  # a line style of matplotlib
     mark: str
 
+    def dasharray(self, width: float) -> str:
+        """The dashes of a line of that width, as SVG has them."""
+        return "none" if self.dashes == "-" else " ".join(f"{width * length:g}" for length in self.dashes[1])
+
 
 PAPER_LOOKS = {  # blue, red, green, black
     100: Look("#1f4fd8", "-", "o"),
@@ -37,6 +41,7 @@ OTHER_LOOKS = (
     Look("#c51b7d", (0, (1.4, 2.6)), ">"),
     Look("#4d4d4d", (0, (12, 2, 3, 2)), "h"),
 )
+ALL_LOOKS = (*PAPER_LOOKS.values(), *OTHER_LOOKS)  # of what belongs to no stress, but is to be told apart
 LINE_COLOUR = "#555d66"  # of what belongs to no stress
 
 SIZE = (4.4, 3.4)  # of a diagram, inches: text is readable where three of them stand side by side, and on a phone

@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""`shearbox compare`: intervals of differences against SciPy's tests, which packings are paired, what is left out."""
+
+import csv
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import synthetic
+from scipy import stats
+from test_ensemble_report import REQUEST, only, write_run
+
+from shearbox_tools.cli import main
+from shearbox_tools.comparison import PAIRED, WELCH, Comparison, Quantity, same_packings
+from shearbox_tools.ensemble_results import Ensemble
+from shearbox_tools.results import Results, read_results
+
+STRESSES = (100.0, 200.0, 300.0)
+OUTSIDE = 0.05
+
+
+@pytest.fixture(name="base", scope="module")
+def _base(tmp_path_factory: pytest.TempPathFactory) -> Results:
+    return read_results(write_run(tmp_path_factory.mktemp("base") / "run", REQUEST))
+
+
+def specimens(base: Results, seeds: list[int], shift: float = 0.0) -> list[Results]:
+    """Peaks c + s sigma with scatter of their own, and TRM at the end, by seed; the same packing for a seed."""
+    runs = []
+    for seed in seeds:
+        rng = np.random.default_rng(seed + int(1e6 * shift))
+        packed = np.random.default_rng(seed).normal(size=3)  # what specimens of a packing have in common
+        c, slope = 5 + packed[0], 0.6 + 0.05 * packed[1] + shift + 0.01 * rng.normal()
+        trm = 0.5 + 0.1 * packed[2] + shift + 0.02 * rng.normal()
+        shears = [
+            replace(
+                shear,
+                peak=replace(shear.peak, value=c + slope * shear.sigma + rng.normal()),
+                data=shear.data | {"trm": np.full(len(shear.data["trm"]), trm)},
+            )
+            for shear in base.shears
+        ]
+        packing = synthetic.bed() | {"kinetic_J": 1e-12 * seed}
+        runs.append(replace(base, identity=base.identity | {"seed": seed}, shears=shears, packing=packing))
+    return runs
+
+
+def found(comparison: Comparison, name: str, sigma: float | None = None) -> Quantity:
+    (quantity,) = [q for q in comparison.quantities if q.name == name and q.sigma == sigma]
+    return quantity
+
+
+def lines(runs: list[Results]) -> tuple[np.ndarray, np.ndarray]:
+    """phi (degrees, to first order around that of the mean slope) and c of each; numpy's fit knows nothing of ours."""
+    fits = [
+        np.polyfit([1 / s.sigma for s in run.shears], [s.peak.value / s.sigma for s in run.shears], 1) for run in runs
+    ]
+    c, slope = np.transpose(fits)
+    middle = slope.mean()
+    return np.degrees(np.arctan(middle) + (slope - middle) / (1 + middle**2)), c
+
+
+def trms(runs: list[Results]) -> np.ndarray:
+    return np.array([run.shears[0].data["trm"][-1] for run in runs])
+
+
+def test_welch(base):
+    """Shifted by an end of the interval, Welch's test finds the other ensemble just as improbable as is outside."""
+    one, other = specimens(base, [1, 2, 3, 4, 5]), specimens(base, [11, 12, 13, 14], 0.1)
+    comparison = Comparison([Ensemble(one), Ensemble(other)])
+    assert comparison.methods == [None, WELCH] and comparison.stresses == list(STRESSES)
+    for name, a, b in (
+        ("phi_deg", lines(one)[0], lines(other)[0]),
+        ("c_kPa", lines(one)[1], lines(other)[1]),
+        ("trm", trms(one), trms(other)),
+    ):
+        told = found(comparison, name).differences[1]
+        assert told.value == pytest.approx(b.mean() - a.mean()), name
+        assert told.low < told.value < told.high
+        for end in (told.low, told.high):
+            assert stats.ttest_ind(b - end, a, equal_var=False).pvalue == pytest.approx(OUTSIDE), name
+    ratios = [np.array([run.shears[1].peak.value / 200 for run in runs]) for runs in (one, other)]
+    told = found(comparison, "ratio_at_peak", 200).differences[1]
+    assert stats.ttest_ind(ratios[1] - told.low, ratios[0], equal_var=False).pvalue == pytest.approx(OUTSIDE)
+
+
+def test_the_means_are_those_of_the_ensembles_report(base):
+    ensemble = Ensemble(specimens(base, [1, 2, 3]))
+    comparison = Comparison([ensemble, Ensemble(specimens(base, [4, 5], 0.1))])
+    phi, strength = found(comparison, "phi_deg").means[0], ensemble.strength
+    assert strength and [phi.value, phi.low, phi.high] == pytest.approx(
+        [float(v) for v in (strength.phi_deg.value, strength.phi_deg.low, strength.phi_deg.high)]
+    )
+    end = found(comparison, "phi_ultimate_deg").means[0]
+    assert end.value == pytest.approx(float(ensemble.ultimate_angle.value))
+
+
+def test_the_same_packings_are_paired_by_seed(base):
+    """In whatever order; the scatter of packings, which is most of it, is not in the interval."""
+    one, other = specimens(base, [1, 2, 3, 4]), specimens(base, [1, 2, 3, 4], 0.1)
+    comparison = Comparison([Ensemble(one), Ensemble(other[::-1])])
+    assert comparison.methods == [None, PAIRED]
+    for name, a, b in (("phi_deg", lines(one)[0], lines(other)[0]), ("trm", trms(one), trms(other))):
+        told = found(comparison, name).differences[1]
+        wanted = stats.ttest_rel(b, a).confidence_interval(1 - OUTSIDE)
+        assert (told.low, told.high) == pytest.approx((wanted.low, wanted.high)), name
+    mean = found(comparison, "trm").means[0]
+    assert told.high - told.low < 0.6 * (mean.high - mean.low)
+
+
+def test_which_packings_are_the_same(base):
+    one = specimens(base, [1, 2, 3])
+    faster = [replace(run, identity=run.identity | {"speed_mm_s": 10.0}) for run in specimens(base, [1, 2, 3], 0.1)]
+    assert same_packings(Ensemble(one), Ensemble(faster))
+    assert not same_packings(Ensemble(one), Ensemble(specimens(base, [1, 2, 4])))
+    assert not same_packings(Ensemble(one), Ensemble(specimens(base, [1, 2])))
+    packed_otherwise = [*one[:2], replace(one[2], packing=one[2].packing | {"kinetic_J": 1e-9})]
+    assert not same_packings(Ensemble(one), Ensemble(packed_otherwise))
+    unknown = [replace(run, packing=None) for run in one]
+    assert not same_packings(Ensemble(unknown), Ensemble(unknown))
+
+
+def test_one_specimen_has_no_interval(base):
+    alone = specimens(base, [9], 0.1)
+    comparison = Comparison([Ensemble(specimens(base, [1, 2, 3])), Ensemble(alone)])
+    for name in ("phi_deg", "c_kPa", "trm"):
+        quantity = found(comparison, name)
+        assert quantity.means[1].low is None and quantity.differences[1].low is None
+        assert quantity.differences[1].value == pytest.approx(quantity.means[1].value - quantity.means[0].value)
+    assert found(comparison, "phi_deg").means[1].value == pytest.approx(lines(alone)[0][0])
+
+
+def test_numbers_are_at_the_stresses_that_all_have(base):
+    whole = specimens(base, [1, 2, 3])
+    some = [only(run, 100.0, 300.0) for run in specimens(base, [4, 5], 0.1)]
+    comparison = Comparison([Ensemble(whole), Ensemble(some)])
+    assert comparison.stresses == [100, 300]
+    assert {q.sigma for q in comparison.quantities} == {None, 100, 300}
+    at_those = lines([only(run, 100.0, 300.0) for run in whole])[0]
+    assert found(comparison, "phi_deg").means[0].value == pytest.approx(at_those.mean())
+    other = Comparison([Ensemble([only(run, 100.0) for run in whole]), Ensemble([only(run, 300.0) for run in some])])
+    assert other.stresses == [] and other.quantities == []
+    of_one = Comparison([Ensemble(whole), Ensemble([only(run, 300.0) for run in some])])
+    assert {q.name for q in of_one.quantities if q.sigma is None} == {"phi_ultimate_deg", "dilation_at_peak_deg", "trm"}
+
+
+def test_packings_of_their_own_for_each_stress(base):
+    """The line of a regression and its errors, as SciPy's linregress has them of tau / sigma over 1 / sigma."""
+    both, lots = [], []
+    for seeds, shift in (([1, 2, 3, 4, 5, 6], 0.0), ([11, 12, 13, 14, 15], 0.1)):
+        runs = [only(run, STRESSES[k % 3]) for k, run in enumerate(specimens(base, seeds, shift))]
+        points = np.array([(1 / s.sigma, s.peak.value / s.sigma) for run in runs for s in run.shears])
+        both.append(Ensemble(runs))
+        lots.append((stats.linregress(*points.T), len(points) - 2))
+    told = found(Comparison(both), "c_kPa").differences[1]
+    (a, freedom_a), (b, freedom_b) = lots
+    assert told.value == pytest.approx(b.slope - a.slope)
+    for end in (told.low, told.high):
+        shifted = stats.ttest_ind_from_stats(
+            b.slope - end, b.stderr * np.sqrt(freedom_b + 1), freedom_b + 1,
+            a.slope, a.stderr * np.sqrt(freedom_a + 1), freedom_a + 1, equal_var=False,
+        )  # fmt: skip
+        assert shifted.pvalue == pytest.approx(OUTSIDE)
+    phi = found(Comparison(both), "phi_deg")
+    errors = [np.degrees(fit.intercept_stderr / (1 + fit.intercept**2)) for fit, _ in lots]
+    assert [mean.error for mean in phi.means] == pytest.approx(errors)
+
+
+@pytest.fixture(name="folder", scope="module")
+def _folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Two packings, each sheared at two speeds, the faster ones half as strong again; and one that was stopped."""
+    folder = tmp_path_factory.mktemp("runs")
+    for name, speed, strong in (("A", 2.0, 1.0), ("B", 10.0, 1.5)):
+        for seed in (1, 2):
+            request = replace(REQUEST, stresses=(100.0,), seed=seed, speed=speed)
+            run = write_run(folder / name / f"seed_{seed}", request, strong * (0.9 + 0.1 * seed))
+            (run / "packed").mkdir()
+            synthetic.write_row(run / "packed" / "packed.csv", **synthetic.bed() | {"kinetic_J": 1e-12 * seed})
+    write_run(folder / "stopped", replace(REQUEST, stresses=(100.0,), seed=3, speed=10.0), rows=400)
+    return folder
+
+
+def test_a_folder_of_two_ensembles(folder, tmp_path, capsys):
+    out = tmp_path / "new" / "folder"
+    assert main(["compare", str(folder), "--out", str(out)]) == 0
+    assert capsys.readouterr().out == f"compare: {out / 'compare.html'}\n"
+    summary = json.loads((out / "compare.json").read_text(encoding="utf-8"))
+    assert [(e["name"], e["differs"], e["seeds"], e["method"]) for e in summary["ensembles"]] == [
+        ("A", "speed 2 mm/s", [1, 2], None),
+        ("B", "speed 10 mm/s", [1, 2], PAIRED),
+    ]
+    assert [one["folder"] for one in summary["left_out"]] == [str(folder / "stopped")]
+    with (out / "compare.csv").open(encoding="utf-8") as stream:
+        rows = {(row["quantity"], row["sigma_kPa"], row["ensemble"]): row for row in csv.DictReader(stream)}
+    peaks = [rows["ratio_at_peak", "100.0", name] for name in "AB"]
+    assert float(peaks[1]["mean"]) == pytest.approx(1.5 * float(peaks[0]["mean"]), rel=1e-3)
+    assert float(peaks[1]["difference"]) == pytest.approx(0.5 * float(peaks[0]["mean"]), rel=1e-3)
+    assert peaks[1]["method"] == PAIRED and not peaks[0]["difference"]
+    page = (out / "compare.html").read_text(encoding="utf-8")
+    assert "Paired by packing" in page and "Welch" not in page and 'src="http' not in page
+    assert not list(folder.glob("**/report.html")), "the runs are only read"
+
+
+def test_what_cannot_be_compared(folder, tmp_path, capsys):
+    def refused(code: int, *names: str) -> str:
+        assert main(["compare", *(str(folder / name) for name in names), "--out", str(tmp_path / "out")]) == code
+        assert not (tmp_path / "out").exists()
+        return capsys.readouterr().err
+
+    said = refused(1, "A/seed_1", "stopped")
+    assert "2 to 10 ensembles are compared, there are 1" in said and "stopped: 100 kPa: sheared to" in said
+    assert "is named twice" in refused(2, "A", "A")
+    assert "holds no run" in refused(1, "none", "A")
