@@ -13,7 +13,7 @@ from scipy import stats
 from test_ensemble_report import REQUEST, only, write_run
 
 from shearbox_tools.cli import main
-from shearbox_tools.comparison import PAIRED, WELCH, Comparison, Quantity, same_packings
+from shearbox_tools.comparison import ALONE, PAIRED, WELCH, Comparison, Quantity, same_packings
 from shearbox_tools.ensemble_results import Ensemble
 from shearbox_tools.results import Results, read_results
 
@@ -125,6 +125,7 @@ def test_which_packings_are_the_same(base):
 def test_one_specimen_has_no_interval(base):
     alone = specimens(base, [9], 0.1)
     comparison = Comparison([Ensemble(specimens(base, [1, 2, 3])), Ensemble(alone)])
+    assert comparison.methods == [None, ALONE]
     for name in ("phi_deg", "c_kPa", "trm"):
         quantity = found(comparison, name)
         assert quantity.means[1].low is None and quantity.differences[1].low is None

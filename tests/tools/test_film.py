@@ -124,7 +124,12 @@ def test_films_by_ffmpeg(run, form, codec):
     assert (seen["width"], seen["height"]) == (1280, 720)
 
 
-FORMATS = ["gif", pytest.param("mp4", marks=pytest.mark.skipif(not shutil.which("ffmpeg"), reason="no ffmpeg"))]
+FORMATS = [
+    "gif",
+    pytest.param(
+        "mp4", marks=pytest.mark.skipif(not shutil.which("ffmpeg"), reason="no ffmpeg: apt-get install ffmpeg")
+    ),
+]
 
 
 @pytest.mark.parametrize("form", FORMATS)

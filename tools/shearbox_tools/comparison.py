@@ -16,6 +16,7 @@ from .shear import Shear
 
 PAIRED = "paired by packing"
 WELCH = "Welch"
+ALONE = "one specimen, so no interval"
 
 
 @dataclass(frozen=True)
@@ -77,7 +78,7 @@ class Comparison:
     def methods(self) -> list[str | None]:
         """How the differences of each to the first are told: None of the first."""
         first, *others = self.ensembles
-        return [None, *(PAIRED if same_packings(first, other) else WELCH for other in others)]
+        return [None, *(_method(first, other) for other in others)]
 
     @cached_property
     def quantities(self) -> list[Quantity]:
@@ -109,6 +110,12 @@ class Comparison:
             for other, method in zip(means, self.methods)
         ]
         return Quantity(name, title, unit, digits, sigma, means, differences)
+
+
+def _method(first: Ensemble, other: Ensemble) -> str:
+    if min(first.count, other.count) < 2:
+        return ALONE
+    return PAIRED if same_packings(first, other) else WELCH
 
 
 def same_packings(one: Ensemble, other: Ensemble) -> bool:
