@@ -7,7 +7,6 @@
 
 #include "core/declaration.h"
 #include "core/rules.h"
-#include "host/compat.h"
 #include "host/glides.h"
 
 #include "fix.h"
@@ -20,7 +19,6 @@ namespace LAMMPS_NS {
 // The list that has the contacts and their histories between rebuilds.
 class ContactList {
 public:
-  virtual ~ContactList() noexcept(Shearbox::DESTRUCTORS_THROW_NOTHING) {}
   // Copies the histories to the grains, by make_room() and add().
   virtual void copy_history_to_grains() = 0;
   // The same; from then on the grains have the histories, not the list.
@@ -29,6 +27,9 @@ public:
   virtual void close_list() = 0;
   // Books the energy losses of the contacts since the last call, if there is an audit.
   virtual void book_losses() = 0;
+
+protected:
+  ~ContactList() = default;
 };
 
 class FixCDEMHistory : public Fix, public Glides {

@@ -4,7 +4,6 @@
 // friction and dashpots, fix cdem/integrate that of drag, fixes cdem/lid and cdem/move the work of their walls.
 #pragma once
 
-#include "host/compat.h"
 #include "host/glides.h"
 
 #include "fix.h"
@@ -17,9 +16,11 @@ public:
   // add their losses to the books.
   class Opener {
   public:
-    virtual ~Opener() noexcept(Shearbox::DESTRUCTORS_THROW_NOTHING) {}
     virtual void open_books() = 0; // does nothing if they are open
     virtual void book_losses() = 0;
+
+  protected:
+    ~Opener() = default;
   };
 
   static constexpr const char *ID = "CDEM_AUDIT";

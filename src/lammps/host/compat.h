@@ -13,11 +13,9 @@
 #include "neigh_request.h"
 #include "neighbor.h"
 #include "pair.h"
-#include "pointers.h"
 
 #include <cstring>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #define SHEARBOX_LAMMPS_2022 (LAMMPS_VERSION_NUMBER >= 20220623) // the first stable version with the new interfaces
@@ -26,9 +24,8 @@ namespace Shearbox {
 
 using namespace LAMMPS_NS;
 
-// Those of LAMMPS's classes may throw in newer versions. An interface that a style has beside its class of LAMMPS must
-// say the same.
-inline constexpr bool DESTRUCTORS_THROW_NOTHING = std::is_nothrow_destructible_v<Pointers>;
+// Whether the command plugin loads run styles: 4Feb2025 says "not yet implemented", 22Jul2025 does.
+inline constexpr bool LOADER_HAS_RUN_STYLES = LAMMPS_VERSION_NUMBER >= 20250722;
 
 // A list that has each pair once (with newton off: once on each of the two ranks of its atoms) and takes its cutoff
 // from the radii. `instance` is the style's instance_me.

@@ -4,8 +4,6 @@
 // that acts within a step and has none of these interfaces prevents it: all steps are then those of run_style verlet.
 #pragma once
 
-#include "host/compat.h"
-
 namespace cdem {
 struct Travel;
 }
@@ -17,9 +15,11 @@ class GrainRows;
 // A fix that need not be called in glided steps.
 class Glides {
 public:
-  virtual ~Glides() noexcept(Shearbox::DESTRUCTORS_THROW_NOTHING) {}
   // Whether it must be called in every step of this run nevertheless: then nothing glides.
   virtual bool needs_every_step() const { return false; }
+
+protected:
+  ~Glides() = default;
 };
 
 // A fix that sums up the motion of every grain in every step: it gets glided steps too, in one of two ways.
@@ -27,6 +27,9 @@ class SumsSteps : public Glides {
 public:
   virtual cdem::Travel *travel() = 0;      // its sums by atom: the loop that moves the grains adds to them
   virtual void add(const GrainRows &) = 0; // adds a step, in a loop of its own
+
+protected:
+  ~SumsSteps() = default;
 };
 
 } // namespace LAMMPS_NS

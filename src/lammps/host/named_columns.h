@@ -9,8 +9,10 @@ namespace Shearbox {
 // A compute that knows what the columns of its local array are called.
 class NamedColumns {
 public:
-  virtual ~NamedColumns() = default;
   virtual std::vector<std::string> column_names() const = 0;
+
+protected:
+  ~NamedColumns() = default;
 };
 
 } // namespace Shearbox
