@@ -148,22 +148,38 @@ def test_error_in_one_partition_ends_the_others(tmp_path: Path) -> None:
     assert done.returncode != 0
 
 
+class Plugin(ctypes.Structure):
+    """What a plugin registers: lammpsplugin_t."""
+
+    _fields_ = [(name, ctypes.c_char_p) for name in ("version", "style", "name", "info", "author")] + [
+        ("creator", ctypes.c_void_p),
+        ("handle", ctypes.c_void_p),
+    ]
+
+
+Register = ctypes.CFUNCTYPE(None, ctypes.POINTER(Plugin), ctypes.c_void_p)
+
+
 def plugin_styles() -> None:
     """Load the plugin as `plugin load` does, into a LAMMPS that has no such command; print what it registers."""
 
-    class Plugin(ctypes.Structure):
-        _fields_ = [(name, ctypes.c_char_p) for name in ("version", "style", "name", "info", "author")] + [
-            ("creator", ctypes.c_void_p),
-            ("handle", ctypes.c_void_p),
-        ]
-
     def number_of(version: str) -> int:  # "29 Sep 2021" -> 20210929
         return int(datetime.strptime(version, "%d %b %Y").strftime("%Y%m%d"))
+
+    pair_creators: list[int] = []
 
     def register(plugin: "ctypes._Pointer[Plugin]", _lmp: int) -> None:
         style = plugin.contents
         assert style.creator and number_of(style.version.decode()) == lammps.lammps_version(lmp)
         print(style.style.decode(), style.name.decode())
+        if style.style == b"pair":
+            pair_creators.append(style.creator)
+
+    def print_those_in_tables() -> None:  # the plugin puts them there where LAMMPS's loader does not know their kind
+        for kind, category in (("dump", b"dump"), ("run", b"integrate")):
+            for name in STYLES[kind]:
+                if lammps.lammps_has_style(lmp, category, name.encode()):
+                    print(kind, name)
 
     ctypes.CDLL("libmpi.so.40", mode=ctypes.RTLD_GLOBAL)
     lammps = ctypes.CDLL("liblammps.so.0", mode=ctypes.RTLD_GLOBAL)
@@ -172,35 +188,66 @@ def plugin_styles() -> None:
     argv = (ctypes.c_char_p * len(arguments))(*arguments)
     lmp = ctypes.c_void_p(lammps.lammps_open_no_mpi(len(arguments), argv, None))
     plugin = ctypes.CDLL(str(PROGRAM.with_name("cdemplugin.so")))
-    plugin.lammpsplugin_init(lmp, None, ctypes.CFUNCTYPE(None, ctypes.POINTER(Plugin), ctypes.c_void_p)(register))
-    for name in STYLES["dump"]:  # the loader has no dump styles: the plugin puts them into LAMMPS's table
-        if lammps.lammps_has_style(lmp, b"dump", name.encode()):
-            print("dump", name)
+    plugin.lammpsplugin_init(lmp, None, Register(register))
+    print_those_in_tables()
+    print("clear")
+    lammps.lammps_command(lmp, b"clear")  # the tables are as at the start; newer loaders put back what they know
+    for creator in pair_creators:
+        ctypes.CFUNCTYPE(ctypes.c_void_p, ctypes.c_void_p)(creator)(lmp)
+    print_those_in_tables()
 
 
-def load_plugin(**environment: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, __file__], env=os.environ | environment, capture_output=True, text=True, timeout=60
-    )
+def load_plugin(*stranger: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, __file__, *stranger], capture_output=True, text=True, timeout=60)
 
 
 def test_plugin_registers_every_style() -> None:
     done = load_plugin()
     assert done.returncode == 0, done.stderr
-    assert {tuple(line.split()) for line in done.stdout.splitlines()} == {
+    loaded, restored = done.stdout.split("clear\n")
+    assert {tuple(line.split()) for line in loaded.splitlines()} == {
         (kind, name) for kind, names in STYLES.items() for name in names
     }
+    assert "dump cdem/local" in restored.splitlines()
 
 
-def test_plugin_refuses_another_lammps(tmp_path: Path) -> None:
-    source = tmp_path / "other.c"
-    source.write_text("int lammps_version(void *lmp) { return 20000101; }\n")
-    other = tmp_path / "other.so"
-    subprocess.run(["gcc", "-shared", "-fPIC", "-w", str(source), "-o", str(other)], check=True)
-    done = load_plugin(LD_PRELOAD=str(other))
-    assert done.stdout == ""
-    assert re.search(r"compiled for LAMMPS 20\d{6}, but this is LAMMPS 20000101", done.stderr)
+# What the plugin asks of the LAMMPS that loads it; one that answers so is refused.
+STRANGER = """
+#include <stdio.h>
+int lammps_version(void *lmp) { return VERSION; }
+int lammps_extract_setting(void *lmp, const char *name) { return name[0] == 't' ? TAGINT : 0; }
+int lammps_config_has_mpi_support(void) { return MPI; }
+int MPI_Get_library_version(char *name, int *length) { return *length = sprintf(name, "MPICH Version:\\t5.0.2"); }
+"""
+REFUSED: dict[str, tuple[dict[str, int], str]] = {
+    "version": ({"VERSION": 20000101}, r"compiled for LAMMPS 20\d{6}, but this is LAMMPS 20000101"),
+    "ids": ({"TAGINT": 8}, "ids of 32 bits, but those of this LAMMPS have 64: .* -DLAMMPS_SIZES=BIGBIG"),
+    "no MPI": ({"MPI": 0}, "compiled with Open MPI, but this LAMMPS has no MPI"),
+    "other MPI": ({}, "compiled with Open MPI, but this LAMMPS runs with MPICH Version: 5.0.2"),
+}
+
+
+def plugin_refusal(stranger: str) -> None:
+    """Load the plugin into a library that answers as a LAMMPS does; nothing is to be registered."""
+    ctypes.CDLL(stranger, mode=ctypes.RTLD_GLOBAL)
+    plugin = ctypes.CDLL(str(PROGRAM.with_name("cdemplugin.so")))
+    plugin.lammpsplugin_init(None, None, Register(lambda plugin, _lmp: print(plugin.contents.name)))
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_plugin_refuses_another_lammps(tmp_path: Path, case: str) -> None:
+    other, message = REFUSED[case]
+    version = re.findall(r"^version (\d+)", run(tmp_path, 'print "version $(version)"').stdout, re.M)[0]
+    answers = {"VERSION": version, "TAGINT": 4, "MPI": 8} | other
+    source, library = tmp_path / "stranger.c", tmp_path / "stranger.so"
+    source.write_text(STRANGER)
+    defines = [f"-D{name}={value}" for name, value in answers.items()]
+    subprocess.run(["gcc", "-shared", "-fPIC", *defines, str(source), "-o", str(library)], check=True)
+    done = load_plugin(str(library))
+    assert (done.returncode, done.stdout) == (0, "")
+    assert len(done.stderr.splitlines()) == 1
+    assert re.search(f"ERROR: plugin refused: Shearbox was .*{message}", done.stderr)
 
 
 if __name__ == "__main__":
-    plugin_styles()
+    plugin_refusal(*sys.argv[1:]) if sys.argv[1:] else plugin_styles()
