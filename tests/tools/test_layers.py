@@ -100,3 +100,11 @@ def test_interfaces_have_no_virtual_destructor() -> None:
     ours is protected, as nobody deletes a style by its interface, there is nothing to override."""
     for path in sorted((SOURCE / "lammps").rglob("*.h")):
         assert "virtual ~" not in path.read_text(encoding="utf-8"), path
+
+
+def test_values_say_whether_they_are_extensive() -> None:
+    """Newer LAMMPS ends the first run of a style that has a scalar, vector or array and does not say so."""
+    for path in sorted((SOURCE / "lammps").rglob("*.cpp")):
+        text = path.read_text(encoding="utf-8")
+        for kind in re.findall(r"\b(scalar|vector|array)_flag =", text):
+            assert re.search(rf"\bext{kind}\b", text), f"{path}: ext{kind}"

@@ -23,6 +23,7 @@ ComputeCDEMSignal::ComputeCDEMSignal(LAMMPS *lmp, int narg, char **arg) : Comput
   if (igroup != 0)
     error->all(FLERR, "Compute cdem/signal {}: the group must be all", id);
   scalar_flag = 1;
+  extscalar = 0;
   std::signal(SIGUSR1, note);
 }
 
