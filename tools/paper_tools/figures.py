@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from shearbox_tools.files import write_text
 from shearbox_tools.mean_curve import as_csv
-from shearbox_tools.style import OTHER_LOOKS, RC, Look, diagram, looks, name_stresses
+from shearbox_tools.style import OTHER_LOOKS, RC, SIZE, Look, diagram, looks, name_stresses
 
 from .findings import BOXES, COARSE, FINE, FINEST, TRIPLE
 from .specimens import Group
@@ -34,12 +34,13 @@ Groups = Mapping[str, Group]
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure: number in the paper, title, files of its parts (SVG) and of its numbers (CSV)."""
+    """A figure: number in the paper, title, files of its parts (SVG) and of its numbers (CSV), width of a part in inches."""
 
     number: int
     title: str
     parts: list[Path]
     numbers: Path
+    width: float
 
 
 def draw(groups: Groups, folder: Path) -> list[Picture]:
@@ -72,7 +73,7 @@ def _model(group: Group, number: int, folder: Path) -> Picture:
         parts.append(_written(figure, folder / f"fig{number:02d}{part}.svg"))
     table = folder / f"fig{number:02d}.csv"
     write_text(table, as_csv(list(curves.values()), EVERY))
-    return Picture(number, f"{group.model}, mean of {len(group.specimens)}", parts, table)
+    return Picture(number, f"{group.model}, mean of {len(group.specimens)}", parts, table, SIZE[0])
 
 
 def _with_error(
@@ -164,7 +165,7 @@ def _finished(figure: Figure, axes: np.ndarray, number: int, title: str, lines: 
     legend_above(figure, handles)
     table = folder / f"fig{number:02d}.csv"
     write_text(table, "\n".join(lines) + "\n")
-    return Picture(number, title, [_written(figure, folder / f"fig{number:02d}.svg")], table)
+    return Picture(number, title, [_written(figure, folder / f"fig{number:02d}.svg")], table, figure.get_figwidth())
 
 
 def legend_above(figure: Figure, handles: Mapping[str, Any]) -> None:

@@ -88,11 +88,7 @@ def interval(effect: Effect, digits: int = 3) -> str:
     if not np.isfinite(effect.value):
         return "–"
     if not np.isfinite(effect.low):
-        return (
-            f"{number_of(effect.value, digits)} (one specimen)"
-            if effect.count == 1
-            else number_of(effect.value, digits)
-        )
+        return f"{number_of(effect.value, digits)}, no interval"
     return f"{number_of(effect.value, digits)} [{number_of(effect.low, digits)}, {number_of(effect.high, digits)}]"
 
 
