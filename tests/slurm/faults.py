@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from datetime import datetime, timedelta
 
@@ -29,6 +30,9 @@ def limit_requeue_failure(bench: Bench) -> None:
     said = bench.shearbox("status", str(bench.out))
     assert said.count("done; 3 of 3 phases done") == 2
     assert "seed_3: ended before it was done" in said and "pack failed" in said
+    told = json.loads(bench.shearbox("status", str(bench.out), "--json"))["runs"]
+    assert told["seed_1"] == {"state": "done", "phases": 3, "phases_done": 3, "displacement_mm": {}}
+    assert told["seed_3"]["phases_done"] == 0 and "pack failed" in told["seed_3"]["state"]
     bench.check_bits(1, 2)
     wait_for((bench.out / "report.html").exists)
     bench.say("report.html is there")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The models: their files against their names, and what happens to a damaged file."""
 
+import json
 import math
 import re
 from pathlib import Path
@@ -79,6 +80,14 @@ def test_the_table_names_them_all(capsys):
     table = capsys.readouterr().out
     assert all(model.name in table for model in all_models())
     assert "10 × 10" in table and "n(d) ∝ d^-3" in table
+
+
+def test_the_same_for_scripts(capsys):
+    print_models(as_json=True)
+    models = {model["name"]: model for model in json.loads(capsys.readouterr().out)}
+    assert set(models) == {model.name for model in all_models()}
+    one = models["TypeA_10x5_2-4_3-circle_350"]
+    assert (one["discs"], one["ngrains"], one["dmin"], one["width"], one["shape"]) == (3, 350, 0.002, 0.1, "triple")
 
 
 def own(folder: Path, shape: str) -> Path:

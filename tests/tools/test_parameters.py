@@ -36,6 +36,14 @@ def test_the_list_says_unit_and_range(capsys):
     assert "--dt" in rows["dt"]
 
 
+def test_the_same_for_scripts(capsys):
+    print_parameters(as_json=True)
+    told = {one["name"]: one for one in json.loads(capsys.readouterr().out)}
+    assert set(told) == set(parameters())
+    assert told["phi"] == {"name": "phi", "value": "27", "allowed": "0 to 89", "meaning": "friction angle (degrees)"}
+    assert told["width"]["value"] is None
+
+
 @pytest.mark.parametrize(
     "setting, message",
     [

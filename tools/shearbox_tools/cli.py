@@ -68,8 +68,13 @@ def make_parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _add_json(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--json", action="store_true", help="print it as JSON, for scripts")
+
+
 def _add_models(commands: Commands) -> None:
     models = commands.add_parser("models", help="list the models", description="The models of the paper's Table 1.")
+    _add_json(models)
     models.set_defaults(command=_models)
 
 
@@ -91,6 +96,7 @@ def _add_parameters(commands: Commands) -> None:
         help="list what --set can set",
         description="The variables of the decks that 'shearbox run --set NAME=VALUE' can set: value, range, meaning with unit.",
     )
+    _add_json(parameters)
     parameters.set_defaults(command=_parameters)
 
 
@@ -273,16 +279,18 @@ def _add_jobs(commands: Commands) -> None:
         parser = commands.add_parser(name, help=what, description=f"{what[0].upper()}{what[1:]}.")
         parser.add_argument("folder", metavar="DIR", type=Path, help="folder given to 'shearbox submit --out'")
         parser.set_defaults(command=command)
+        if command is _status:
+            _add_json(parser)
     parser.add_argument("number", metavar="N", type=int, help="number of the element, from 1 on")
 
 
 # The commands import what they need themselves: --help answers at once, and a missing package has a message.
 
 
-def _models(_: argparse.Namespace) -> None:
+def _models(options: argparse.Namespace) -> None:
     from .table import print_models
 
-    print_models()
+    print_models(options.json)
 
 
 def _model(options: argparse.Namespace) -> None:
@@ -294,10 +302,10 @@ def _model(options: argparse.Namespace) -> None:
     print(text, end="")
 
 
-def _parameters(_: argparse.Namespace) -> None:
+def _parameters(options: argparse.Namespace) -> None:
     from .table import print_parameters
 
-    print_parameters()
+    print_parameters(options.json)
 
 
 def _run(options: argparse.Namespace) -> None:
@@ -370,7 +378,7 @@ def _submit(options: argparse.Namespace) -> None:
 def _status(options: argparse.Namespace) -> None:
     from .status import status
 
-    status(options.folder)
+    status(options.folder, options.json)
 
 
 def _cancel(options: argparse.Namespace) -> None:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The commands `shearbox status` and `cancel`: what the jobs of a folder are doing, and their end."""
 
+import json
+import sys
 import time
 from pathlib import Path
 
@@ -15,20 +17,48 @@ SECONDS_TO_END = 120
 POLL_SECONDS = 0.5
 
 
-def status(folder: Path) -> None:
+class Progress:
+    """Of a run: phases, those that are done, and how far shear is that is under way, mm by stress (kPa)."""
+
+    def __init__(self, forecast: Forecast) -> None:
+        left = [phase for phase in forecast.phases if not phase.done]
+        self.phases = len(forecast.phases)
+        self.phases_done = self.phases - len(left)
+        self.displacement_mm = {
+            f"{phase.sigma:g}": phase.displacement() for phase in left if phase.name == SHEAR and phase.displacement()
+        }
+
+    def __str__(self) -> str:
+        sheared = [f"{sigma} kPa at {mm:.2f} mm" for sigma, mm in self.displacement_mm.items()]
+        return ", ".join([f"{self.phases_done} of {self.phases} phases done", *sheared])
+
+
+def status(folder: Path, as_json: bool = False) -> None:
     """Print a line for each run, and one for the report; results are looked at even if the batch system is silent."""
     jobs = read_jobs(folder)
     states: dict[int, str] | None = None
     try:
         states = find_scheduler(jobs.scheduler).states(jobs.name)
     except ShearboxError as error:
-        print(f"the batch system does not answer: {error}")
-    for number in range(1, len(jobs.elements) + 1):
-        for run in jobs.runs(folder, number):
-            state = "?" if states is None else states.get(number, "")
-            print(f"{run.name or folder}: {_state(folder, run, number, state)}; {_progress(run)}")
-    if states and 0 in states:
-        print(f"{REPORT}: {states[0]}")
+        print(f"the batch system does not answer: {error}", file=sys.stderr if as_json else sys.stdout)
+    every = [(number, run) for number in range(1, len(jobs.elements) + 1) for run in jobs.runs(folder, number)]
+    told = {
+        run.name
+        or str(folder): (
+            _state(folder, run, number, "?" if states is None else states.get(number, "")),
+            Progress(Forecast(run.folder, run.request)),
+        )
+        for number, run in every
+    }
+    report = states.get(0) if states else None
+    if as_json:
+        runs = {name: {"state": state, **vars(progress)} for name, (state, progress) in told.items()}
+        print(json.dumps({"runs": runs, REPORT: report}, indent=2))
+        return
+    for name, (state, progress) in told.items():
+        print(f"{name}: {state}; {progress}")
+    if report:
+        print(f"{REPORT}: {report}")
 
 
 def cancel(folder: Path) -> None:
@@ -61,13 +91,3 @@ def _last_words(log: Path) -> str:
         return "there is none"
     said = [line.strip() for line in lines if line.strip()]
     return next((line for line in reversed(said) if line.startswith("shearbox: ")), said[-1] if said else "nothing")
-
-
-def _progress(run: Run) -> str:
-    forecast = Forecast(run.folder, run.request)
-    done = [phase for phase in forecast.phases if phase.done]
-    sheared = [phase for phase in forecast.phases if phase.name == SHEAR and phase not in done and phase.displacement()]
-    return ", ".join(
-        [f"{len(done)} of {len(forecast.phases)} phases done"]
-        + [f"{phase.sigma:g} kPa at {phase.displacement():.2f} mm" for phase in sheared]
-    )

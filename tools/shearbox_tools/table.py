@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The tables that `shearbox models` and `shearbox parameters` print."""
 
+import json
+
 from rich import box
 from rich.console import Console
 from rich.table import Table
@@ -11,16 +13,20 @@ from .parameters import parameters
 from .request import OWN_OPTION
 
 
-def print_models() -> None:
-    """One line a model, and one for each file that is none."""
-    table = _table("model", "box, cm", "discs, mm", "discs/grain", "grains", "size law")
+def print_models(as_json: bool = False) -> None:
+    """One line a model, and one for each file that is none; as JSON, with the variables of its file, the models alone."""
     models, problems = [], []
     for path in model_files():
         try:
             models.append(read_model(path))
         except ShearboxError as error:
             problems.append(str(error))
-    for model in sorted(models, key=table_order):
+    models.sort(key=table_order)
+    if as_json:
+        print(json.dumps([{"name": m.name, "discs": m.discs, **m.variables} for m in models], indent=2))
+        return
+    table = _table("model", "box, cm", "discs, mm", "discs/grain", "grains", "size law")
+    for model in models:
         table.add_row(*_row(model))
     console = _console()
     console.print(table)
@@ -28,8 +34,12 @@ def print_models() -> None:
         console.print(f"not a model: {problem}", markup=False, highlight=False, soft_wrap=True)
 
 
-def print_parameters() -> None:
-    """One line a variable."""
+def print_parameters(as_json: bool = False) -> None:
+    """One line a variable; in JSON the value of those that the model has is null."""
+    if as_json:
+        known = [(p.name, p.value, p.allowed, p.meaning.strip()) for p in parameters().values()]
+        print(json.dumps([dict(zip(("name", "value", "allowed", "meaning"), one)) for one in known], indent=2))
+        return
     table = _table("name", "value", "may be", "meaning, unit", right=())
     for parameter in parameters().values():
         option = f" ({OWN_OPTION[parameter.name]})" if parameter.name in OWN_OPTION else ""
