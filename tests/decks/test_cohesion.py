@@ -48,7 +48,9 @@ timestep ${dt}
 compute c all cdem/contacts id1 overlap fn
 compute energy all cdem/energy audit yes
 compute pair all pair/local eng
-compute sum all reduce sum c_pair
+variable inputs string ""
+if "$(version) > 20240000" then "variable inputs string 'inputs local'"  # before, compute reduce knew by itself
+compute sum all reduce sum c_pair ${inputs}
 thermo_style custom step pe c_sum c_energy[*]
 thermo_modify format float %.17g
 thermo 10
