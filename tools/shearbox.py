@@ -138,7 +138,7 @@ class Test:
             if shear.sigma == sigma:
                 return shear
         known = ", ".join(f"{s:g}" for s in self.stresses) or "none"
-        raise InputError(f"{self.folder}: there is no curve of {sigma:g} kPa; there are {known}")
+        raise InputError(f"{self.folder}: there is no curve of {sigma} kPa; there are {known}")
 
     def _tables(self, sigma: float) -> Tables:
         return Tables(self._shear(sigma).folder)
@@ -164,6 +164,8 @@ def run(
     for name, value in options.items():
         words += words_of(name, value)
     given, asked = parse_run(words)
+    if given.dry_run:
+        raise InputError("dry-run: this is for the command line alone")
     folder, planned, program = prepare(given, asked)
     with ExitStack() as stack:
         folders = dict.fromkeys([folder, *(one.folder for one in planned)])

@@ -103,8 +103,15 @@ def test_a_model_file_lies_beside_the_campaign(tmp_path: Path) -> None:
             f'[all]\nseeds = "x"\n[runs.a]\nmodel = "{MODEL}"',
             "study.toml: [all]: argument --seeds: invalid int value: 'x'",
         ),
-        (f'[runs.a]\nmodel = "{MODEL}"\n[runs.b]\nmodel = "none"', "b: unknown model 'none'"),
-        (f'[runs.a]\nmodel = "{MODEL}"\nset = {{ phi = 95 }}', "--set phi 95: 0 to 89 is expected"),
+        (f'[runs.a]\nmodel = "{MODEL}"\n[runs.b]\nmodel = "none"', "study.toml: [runs.b]: unknown model 'none'"),
+        (f'[runs.a]\nmodel = "{MODEL}"\nset = {{ phi = 95 }}', "[runs.a]: --set phi 95: 0 to 89 is expected"),
+        (f'[runs.a]\nmodel = "{MODEL}"\nstress = -100', "study.toml: [runs.a]: --stress -100: a stress above 0 kPa"),
+        (f'[runs.a]\nmodel = "{MODEL}"\nstres = 100', "study.toml: [runs.a]: unrecognized arguments: --stres 100"),
+        (
+            f'[runs."report.html"]\nmodel = "{MODEL}"',
+            "[runs.report.html]: files and folders of reports and jobs have such",
+        ),
+        (f'[runs.jobs]\nmodel = "{MODEL}"', "[runs.jobs]: files and folders of reports and jobs have such names"),
         (f'[runs.a]\nmodel = "{MODEL}"\nseed = 2\nseeds = 3', "--seeds: --seed is given, too"),
     ],
 )
@@ -112,6 +119,16 @@ def test_what_is_refused(tmp_path: Path, text: str, message: str) -> None:
     refused = finish(campaign(tmp_path, text))
     assert refused.returncode == 2 and message in refused.stderr
     assert not (tmp_path / "results").exists()
+
+
+@pytest.mark.parametrize("below", ["", "100", "100/deeper"])
+def test_a_campaign_within_a_run_would_never_be_seen(tmp_path: Path, below: str) -> None:
+    (tmp_path / "results").mkdir()
+    (tmp_path / "results" / "run.json").write_text("{}", encoding="utf-8")
+    file = tmp_path / "study.toml"
+    file.write_text(TWO, encoding="utf-8")
+    refused = finish(start(str(file), "--out", str(tmp_path / "results" / below)))
+    assert refused.returncode == 2 and f"{tmp_path / 'results'} holds a run" in refused.stderr
 
 
 def test_options_that_are_not_of_a_campaign(tmp_path: Path) -> None:

@@ -213,4 +213,7 @@ def test_what_cannot_be_compared(folder, tmp_path, capsys):
     said = refused(1, "A/seed_1", "stopped")
     assert "2 to 10 ensembles are compared, there are 1" in said and "stopped: 100 kPa: sheared to" in said
     assert "is named twice" in refused(2, "A", "A")
+    (tmp_path / "link").symlink_to(folder / "A")
+    for same in (tmp_path / "link", "A/seed_1"):
+        assert f"{folder / 'A' / 'seed_1'} is in more than one of the folders" in refused(2, "A", str(same))
     assert "holds no run" in refused(1, "none", "A")

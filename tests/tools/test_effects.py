@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
+from shearbox_tools.ensemble import strength_of_shared
 from paper_tools.effects import (
     CONFIRMED,
     CONTRADICTED,
@@ -33,6 +34,14 @@ def test_the_ends_of_an_interval_are_where_a_test_gives_five_percent() -> None:
     assert stats.ttest_1samp(FIRST, one.low).pvalue == pytest.approx(0.05)
     assert (welch.count, pairs.count, one.count) == (13, 5, 8)
     assert welch.value == pytest.approx(SECOND.mean() - FIRST.mean())
+
+
+def test_an_angle_has_the_interval_of_its_slope() -> None:
+    """As that of the strength of an ensemble without cohesion, whose specimens lie on lines of these angles."""
+    sigma = np.array([100.0, 200.0])
+    tau = np.tan(np.radians(FIRST))[:, None] * sigma
+    found, expected = mean("", FIRST, angles=True), strength_of_shared(sigma, tau).phi_deg
+    assert (found.value, found.low, found.high) == pytest.approx((expected.value, expected.low, expected.high))
 
 
 def test_a_common_difference_is_that_of_least_squares() -> None:

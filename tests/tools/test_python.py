@@ -2,6 +2,8 @@
 """`import shearbox`: tests are run and read from a script, as tables."""
 
 import json
+import signal
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -80,11 +82,23 @@ def test_progress_is_told(tmp_path: Path) -> None:
     assert tests[0].phi_deg is None, "one stress has no line"
 
 
+def test_numbers_may_come_in_any_row(tmp_path: Path) -> None:
+    """Also in a thread, which cannot listen to signals; and after it who listened before does again."""
+    heard = signal.getsignal(signal.SIGUSR1)
+    options: dict[str, Any] = {"stress": np.array([100, 200]), "seeds": range(3, 5), "law": None, "engine": ENGINE}
+    with ThreadPoolExecutor(1) as pool:
+        tests = pool.submit(shearbox.run, MODEL, tmp_path / "a", **options).result()
+    assert [(test.seed, test.stresses) for test in tests] == [(3, [100, 200]), (4, [100, 200])]
+    shearbox.run(MODEL, tmp_path / "a", **options)
+    assert signal.getsignal(signal.SIGUSR1) == heard
+
+
 def test_what_is_refused(test: shearbox.Test, tmp_path: Path) -> None:
     cases: list[tuple[dict[str, Any], str]] = [
         ({"set": {"phi": 95}}, "--set phi 95: 0 to 89 is expected"),
         ({"spede": 3}, "unrecognized arguments: --spede 3"),
         ({"stress": "x"}, "'x' is not a number of kPa"),
+        ({"dry-run": True}, "dry-run: this is for the command line alone"),
     ]
     for options, message in cases:
         with pytest.raises(shearbox.Error, match=message):

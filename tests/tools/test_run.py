@@ -252,10 +252,10 @@ def test_two_runs_in_one_folder(folder):
     ],
 )
 def test_accuracy_sets_the_speed_that_is_not_given(tmp_path, monkeypatch, options, speed):
-    asked: list[argparse.Namespace] = []
-    monkeypatch.setattr("shearbox_tools.run.run", asked.append)
+    given: list[dict] = []
+    monkeypatch.setattr("shearbox_tools.run.run", lambda options, asked: given.extend(asked))
     assert cli.main(["run", MODEL, "--out", str(tmp_path), *options]) == 0
-    assert getattr(asked[0], "speed", Request.speed) == speed
+    assert given[0].get("speed", Request.speed) == speed
 
 
 def test_accuracy_and_stiffness_reach_the_decks(folder):
@@ -448,3 +448,14 @@ def test_help_of_every_command():
         done = subprocess.run([str(SHEARBOX), *words, "--help"], capture_output=True, text=True, timeout=30)
         assert done.returncode == 0
         assert done.stdout.startswith("usage: shearbox")
+
+
+def test_help_is_as_it_is_meant() -> None:
+    """A percent sign is written twice in the help of an option, and once in a description."""
+    for command in subcommands().values():
+        assert "%%" not in command.format_help()
+
+
+def subcommands() -> dict[str, argparse.ArgumentParser]:
+    (commands,) = [action.choices for action in cli.make_parser()._actions if isinstance(action.choices, dict)]
+    return commands

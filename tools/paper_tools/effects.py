@@ -40,8 +40,10 @@ def unknown(label: str, count: int = 0) -> Effect:
     return Effect(label, count, np.nan, np.nan, np.nan)
 
 
-def mean(label: str, values: np.ndarray) -> Effect:
-    """Over specimens (n,)."""
+def mean(label: str, values: np.ndarray, angles: bool = False) -> Effect:
+    """Over specimens (n,); of angles (degrees) that of their slopes, as in reports on ensembles."""
+    if angles:
+        return _known(label, len(values), differences.mean_angle(np.tan(np.radians(values))))
     return _known(label, len(values), differences.mean(values))
 
 

@@ -20,7 +20,7 @@ from shearbox_tools.style import OTHER_LOOKS, RC
 
 from .effects import Effect, mean, slope
 from .figures import legend_above
-from .specimens import NUMBERS, Group
+from .specimens import ANGLES, NUMBERS, Group
 
 FAMILIES = {"single": "A_4-8", "triple": "A_2-4_triple"}  # and the models of the campaign of all
 PANELS = {
@@ -64,7 +64,7 @@ class Point:
 
     def effect(self, name: str) -> Effect:
         """Mean of a number over its specimens."""
-        return mean(f"{self.family}, {self.value:g}", self.group.values(name))
+        return mean(f"{self.family}, {self.value:g}", self.group.values(name), name in ANGLES)
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from .effects import Effect, mean
 from .figures import Picture
 from .findings import Finding
 from .outlook import PANELS, Study
-from .specimens import NUMBERS, STRENGTHS, Group
+from .specimens import ANGLES, NUMBERS, STRENGTHS, Group
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 OF_MODELS = ["phi", "phi_plane", "c", "dilation_deg", "sharpness", "late_rate", "trm", "solid", "inertial"]
@@ -32,7 +32,9 @@ HALVES = ("phi", "phi_plane", "dilation_deg", "trm", "mean", "peak")
 
 def strengths(group: Group) -> dict[str, Effect]:
     """The numbers of a model's row."""
-    return {name: mean(group.name, group.values(name)) for name in dict.fromkeys([*OF_MODELS, *OF_WALLS])}
+    return {
+        name: mean(group.name, group.values(name), name in ANGLES) for name in dict.fromkeys([*OF_MODELS, *OF_WALLS])
+    }
 
 
 def table_3(group: Group) -> list[dict[str, float]]:

@@ -62,6 +62,7 @@ class Specimen:
 
 
 STRENGTHS = ("phi", "c", "phi_plane", "c_plane")
+ANGLES = ("phi", "phi_plane")  # of slopes
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,11 @@ def campaign_file(name: str) -> Path:
     return Path(__file__).parent / "campaigns" / f"{name}.toml"
 
 
+def runs_of(name: str) -> list[str]:
+    """The names of its runs."""
+    return list(tomllib.loads(campaign_file(name).read_text(encoding="utf-8"))["runs"])
+
+
 def report(folder: Path) -> Path:
     """Write page, figures and tables of the campaigns in the folder; the path of the page."""
     groups = {name: read_groups(folder / name) for name in CAMPAIGNS}

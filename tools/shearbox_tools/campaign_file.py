@@ -16,14 +16,16 @@ model file, NAME.in, is looked for from the folder of the campaign file.
 import argparse
 import re
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, NoReturn
 
 from .errors import InputError
+from .jobs import JOBS
 
 ENDING = ".toml"
 _NAME = re.compile(r"[\w.+-]*\w")
+_OURS, _ENDINGS = (JOBS, "export", "compare"), (".html", ".json", ".csv")
 OF_ALL, RUNS = "all", "runs"
 
 Options = dict[str, Any]
@@ -79,6 +81,10 @@ def _tables(path: Path) -> tuple[Options, dict[str, Options]]:
             raise InputError(f"{path}: {name} = {table!r}: a table is expected")
         if not _NAME.fullmatch(name):
             raise InputError(f"{path}: [{RUNS}.{name}]: letters, digits, _ . + - are expected")
+        if name in _OURS or name.endswith(_ENDINGS):
+            raise InputError(
+                f"{path}: [{RUNS}.{name}]: files and folders of reports and jobs have such names; take another"
+            )
     return tables.get(OF_ALL, {}), runs
 
 
@@ -95,12 +101,15 @@ def _parsed(path: Path, where: str, table: Options, parse: Callable[[list[str]],
 
 
 def words_of(name: str, value: Any) -> list[str]:
-    """An option of the command line; true is one without a value, false is none."""
+    """An option of the command line; true is one without a value, false and None are none."""
+    if value is None:
+        return []
     if isinstance(value, bool):
         return [f"--{name}"] * value
     if isinstance(value, dict):
         value = [f"{variable}={amount}" for variable, amount in value.items()]
-    return [f"--{name}", *map(str, value if isinstance(value, list) else [value])]
+    several = not isinstance(value, str) and isinstance(value, Iterable)
+    return [f"--{name}", *map(str, value if several else [value])]
 
 
 def _put_together(layers: list[Options]) -> Options:

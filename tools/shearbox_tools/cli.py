@@ -207,7 +207,7 @@ def _add_compare(commands: Commands) -> None:
         "compare",
         help="compare ensembles",
         description="Write compare.html, compare.json and compare.csv: mean curves of the ensembles in the folders over each other, "
-        "strength, dilation angle and TRM, and their differences to the first with 95 %% intervals.",
+        "strength, dilation angle and TRM, and their differences to the first with 95 % intervals.",
     )
     compare.add_argument("folders", metavar="DIR", type=Path, nargs="+", help="folder of a run, or of several")
     compare.add_argument(
@@ -318,7 +318,7 @@ def parse_run(words: list[str]) -> tuple[argparse.Namespace, list[dict[str, Any]
     """A command line of `run` without the command, and what it asks for."""
     from .campaign_file import OptionParser
 
-    parser = OptionParser(prog="run", add_help=False, argument_default=argparse.SUPPRESS)
+    parser = OptionParser(prog="run", add_help=False, allow_abbrev=False, argument_default=argparse.SUPPRESS)
     _add_what_to_run(parser)
     options = parser.parse_args(words)
     return options, _asked(options)
@@ -332,7 +332,7 @@ def _asked(options: argparse.Namespace) -> list[dict[str, Any]]:
         if "only" in options:
             raise InputError(f"--only: it is for campaign files, {options.model} is none")
         return [_with_speed(options)]
-    parser = OptionParser(add_help=False, argument_default=argparse.SUPPRESS)
+    parser = OptionParser(add_help=False, allow_abbrev=False, argument_default=argparse.SUPPRESS)
     _add_options_of_a_run(parser)
     return read_campaign(Path(options.model), lambda words: _with_speed(parser.parse_args(words)), _with_speed(options))
 

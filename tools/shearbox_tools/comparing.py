@@ -50,6 +50,9 @@ def compare(folders: Sequence[Path], out: Path) -> Path:
         ensembles, without = _read(folder)
         members += [Member(folder, ensemble) for ensemble in ensembles]
         left_out += without
+    places = [run.folder.resolve() for member in members for run in member.ensemble.specimens]
+    if shared := next((place for place in places if places.count(place) > 1), None):
+        raise InputError(f"{shared} is in more than one of the folders: nothing can be compared with itself")
     if not 2 <= len(members) <= len(ALL_LOOKS):
         there = [f"{member.folder}: {member.ensemble.identity['model']}" for member in members]
         reasons = [f"{one.folder}: {one.reason}" for one in left_out]

@@ -4,7 +4,8 @@
 import argparse
 import os
 import signal
-from collections.abc import Mapping
+import threading
+from collections.abc import Iterable, Mapping
 from contextlib import ExitStack
 from dataclasses import replace
 from itertools import zip_longest
@@ -14,6 +15,7 @@ from typing import Any
 from rich.console import Console
 
 from .campaign import Campaign
+from .campaign_file import is_campaign
 from .checks import check
 from .display import Display, Whole, duration, make_display
 from .engine import PROGRAM, Engine, Failure, free_bytes
@@ -72,11 +74,11 @@ def run(options: argparse.Namespace, asked: list[dict[str, Any]]) -> None:
 
 def prepare(options: argparse.Namespace, asked: list[dict[str, Any]]) -> tuple[Path, list[Run], Engine]:
     """The folder of all that is asked for, its runs, and the engine, all of them checked; nothing is written."""
-    groups = [_planned(given, f"{given['out'].name}: " if len(asked) > 1 else "") for given in asked]
+    many = is_campaign(options.model)
+    groups = [_planned(given, f"{options.model}: [runs.{given['out'].name}]: " if many else "") for given in asked]
     out = getattr(options, "out", groups[0][0])
+    _refuse_within_a_run(out, out.resolve().parents if not many else (out, *out.resolve().parents))
     runs = _in_turn(out, groups)
-    for one in runs:
-        check(one.request)
     if len(runs) > MOST_RUNS:
         raise InputError(f"{len(runs)} runs are asked for, at most {MOST_RUNS} are expected in one go")
     engine = Engine(getattr(options, "engine", PROGRAM).resolve(), options.ranks)
@@ -94,10 +96,20 @@ def prepare(options: argparse.Namespace, asked: list[dict[str, Any]]) -> tuple[P
 
 def _planned(given: dict[str, Any], name: str) -> tuple[Path, list[Run]]:
     try:
-        out, runs = _asked(given)
+        out, asked = _asked(given)
+        runs = [replace(one, request=placed(one.request, one.folder)) for one in asked]
+        for one in runs:
+            check(one.request)
     except InputError as error:
         raise InputError(f"{name}{error}") from error
-    return out, [replace(one, request=placed(one.request, one.folder)) for one in runs]
+    return out, runs
+
+
+def _refuse_within_a_run(out: Path, places: Iterable[Path]) -> None:
+    """What is there would never be seen: what is below a run is the run's."""
+    for place in places:
+        if (place / RECORD).exists():
+            raise InputError(f"--out {out}: {place} holds a run, and what is in it would be taken for a part of that")
 
 
 def _in_turn(out: Path, groups: list[tuple[Path, list[Run]]]) -> list[Run]:
@@ -129,10 +141,13 @@ def carry_out(
     _say(console, f"left: {total(forecasts, jobs)}")
     display = display or make_display(console, whole(runs))
     campaign = Campaign(runs, engine, display, locks)
-    signal.signal(signal.SIGUSR1, lambda *_: campaign.end())
+    listens = threading.current_thread() is threading.main_thread()  # others cannot be sent signals
+    before = signal.signal(signal.SIGUSR1, lambda *_: campaign.end()) if listens else None
     try:
         failures = campaign.run(jobs)
     finally:
+        if listens:
+            signal.signal(signal.SIGUSR1, before)
         display.close()
     problems = [failure.message for failure in failures]
     if campaign.stopped:
