@@ -13,7 +13,6 @@ shearbox.Error, with the reason. Needs python3-pandas, and this folder in PYTHON
 """
 
 from collections.abc import Callable
-from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -24,12 +23,10 @@ from shearbox_tools.campaign_file import words_of
 from shearbox_tools.cli import parse_run
 from shearbox_tools.display import Whole
 from shearbox_tools.errors import InputError, ShearboxError
-from shearbox_tools.lock import locked
 from shearbox_tools.polynomial import Fit
 from shearbox_tools.reporting import report_on
-from shearbox_tools.request import open_folder
 from shearbox_tools.results import Results, read_results
-from shearbox_tools.run import carry_out, prepare, whole
+from shearbox_tools.run import carry_out, opened, prepare, whole
 from shearbox_tools.shear import Shear
 from shearbox_tools.specimens import find_runs
 from shearbox_tools.tables import Tables
@@ -167,11 +164,7 @@ def run(
     if given.dry_run:
         raise InputError("dry-run: this is for the command line alone")
     folder, planned, program = prepare(given, asked)
-    with ExitStack() as stack:
-        folders = dict.fromkeys([folder, *(one.folder for one in planned)])
-        locks = {place: stack.enter_context(locked(place)) for place in folders}
-        for one in planned:
-            open_folder(one.folder, one.request)
+    with opened(folder, planned) as locks:
         teller = _Teller(whole(planned), progress or (lambda share, text: None))
         problems = carry_out(planned, program, jobs, locks, Console(quiet=True), teller)
     if problems:

@@ -34,12 +34,11 @@ Groups = Mapping[str, Group]
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure: number in the paper, title, files of its parts (SVG) and of its numbers (CSV), width of a part in inches."""
+    """A figure: number in the paper, title, files of its parts (SVG), width of a part in inches."""
 
     number: int
     title: str
     parts: list[Path]
-    numbers: Path
     width: float
 
 
@@ -73,7 +72,7 @@ def _model(group: Group, number: int, folder: Path) -> Picture:
         parts.append(_written(figure, folder / f"fig{number:02d}{part}.svg"))
     table = folder / f"fig{number:02d}.csv"
     write_text(table, as_csv(list(curves.values()), EVERY))
-    return Picture(number, f"{group.model}, mean of {len(group.specimens)}", parts, table, SIZE[0])
+    return Picture(number, f"{group.model}, mean of {len(group.specimens)}", parts, SIZE[0])
 
 
 def _with_error(
@@ -165,7 +164,7 @@ def _finished(figure: Figure, axes: np.ndarray, number: int, title: str, lines: 
     legend_above(figure, handles)
     table = folder / f"fig{number:02d}.csv"
     write_text(table, "\n".join(lines) + "\n")
-    return Picture(number, title, [_written(figure, folder / f"fig{number:02d}.svg")], table, figure.get_figwidth())
+    return Picture(number, title, [_written(figure, folder / f"fig{number:02d}.svg")], figure.get_figwidth())
 
 
 def legend_above(figure: Figure, handles: Mapping[str, Any]) -> None:

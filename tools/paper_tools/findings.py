@@ -37,13 +37,14 @@ Groups = Mapping[str, Group]
 
 @dataclass(frozen=True)
 class Finding:
-    """A claim, where the paper has it, how it is judged, the effects, the first of which decides, and the verdict."""
+    """A claim, where the paper has it, how it is judged, the effects, the first `deciding` of which do, and the verdict."""
 
     claim: str
     source: str
     rule: str
     effects: list[Effect]
     verdict: str
+    deciding: int = 1
 
 
 def findings(groups: Groups) -> list[Finding]:
@@ -129,7 +130,7 @@ def _finer(groups: Groups, name: str, claim: str, source: str) -> Finding:
     verdicts = [step[0].verdict(-1) for step in steps]
     verdict = next((v for v in (CONTRADICTED, OPEN) if v in verdicts), CONFIRMED)
     rule = "lower at both steps: from 4–8 to 2–4 mm, and from there to 2 mm"
-    return Finding(claim, source, rule, [step[0] for step in steps] + steps[0][1:] + steps[1][1:], verdict)
+    return Finding(claim, source, rule, [step[0] for step in steps] + steps[0][1:] + steps[1][1:], verdict, len(steps))
 
 
 def _larger(groups: Groups, name: str, by: str) -> Finding:

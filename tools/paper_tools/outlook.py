@@ -20,7 +20,7 @@ from shearbox_tools.style import OTHER_LOOKS, RC
 
 from .effects import Effect, mean, slope
 from .figures import legend_above
-from .specimens import ANGLES, NUMBERS, Group
+from .specimens import ANGLES, Group
 
 FAMILIES = {"single": "A_4-8", "triple": "A_2-4_triple"}  # and the models of the campaign of all
 PANELS = {
@@ -30,8 +30,6 @@ PANELS = {
     "trm": "TRM (–)",
 }
 TABLE = ["phi", "phi_plane", "c", "c_plane", "dilation_deg", "trm", "mean", "mean_plane", "end", "inertial", "solid"]
-DEGREES_AND_KPA = {"phi": "φ by the lid, degrees", "phi_plane": "φ by the plane, degrees", "c": "c by the lid, kPa",
-                   "c_plane": "c by the plane, kPa"}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -69,13 +67,12 @@ class Point:
 
 @dataclass(frozen=True)
 class Study:
-    """A sweep with its points, in order, the slopes of its trends, and files of its figure and numbers."""
+    """A sweep with its points, in order, the slopes of its trends, and the file of its figure."""
 
     sweep: Sweep
     points: list[Point]
     trends: list[tuple[str, Effect]]
     picture: Path
-    numbers: Path
 
 
 def study(sweep: Sweep, groups: Mapping[str, Group], models: Mapping[str, Group], folder: Path) -> Study | None:
@@ -93,7 +90,7 @@ def study(sweep: Sweep, groups: Mapping[str, Group], models: Mapping[str, Group]
         _figure(sweep, points).savefig(picture, metadata={"Date": None})
     write_text(numbers, _csv(points))
     trends = [(name, _trend(sweep, f, points, name)) for f in families for name in PANELS]
-    return Study(sweep, points, trends, picture, numbers)
+    return Study(sweep, points, trends, picture)
 
 
 def _family_and_value(name: str) -> tuple[str, float]:
@@ -140,8 +137,3 @@ def _csv(points: list[Point]) -> str:
         cells = [f"{v:.6g}" for e in effects for v in (e.value, e.low, e.high)]
         table.writerow([point.family, f"{point.value:g}", len(point.group.specimens), *cells])
     return text.getvalue()
-
-
-def meaning(name: str) -> str:
-    """Of a number of TABLE."""
-    return DEGREES_AND_KPA.get(name) or NUMBERS[name]

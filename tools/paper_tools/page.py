@@ -10,18 +10,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from shearbox_tools.campaign import read_timings
 from shearbox_tools.files import write_json, write_text
-from shearbox_tools.page import TEMPLATES, minus
+from shearbox_tools.page import TEMPLATES, environment
 from shearbox_tools.page import number as number_of
 from shearbox_tools.summary import plain
 
 from .effects import Effect, mean
-from .figures import Picture
 from .findings import Finding
-from .outlook import PANELS, Study
 from .specimens import ANGLES, NUMBERS, STRENGTHS, Group
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
@@ -71,17 +68,11 @@ def record(findings: Mapping[str, Sequence[Finding]], groups: Mapping[str, Mappi
 
 
 def write_page(out: Path, **content: Any) -> Path:
-    """page.html, and page.pdf where there is a browser that prints."""
-    environment = Environment(
-        loader=FileSystemLoader([Path(__file__).parent / "templates", TEMPLATES]),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters.update(number=number_of, minus=minus, uri=_uri, interval=interval)
+    """page.html."""
+    templates = environment(Path(__file__).parent / "templates", TEMPLATES)
+    templates.filters.update(uri=_uri, interval=interval)
     page = out / "page.html"
-    write_text(page, environment.get_template("paper.html.j2").render(panels=PANELS, **content))
+    write_text(page, templates.get_template("paper.html.j2").render(**content))
     return page
 
 

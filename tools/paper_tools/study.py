@@ -51,7 +51,6 @@ def report(folder: Path) -> Path:
         missing=_missing(groups),
         findings=found,
         claims=_side_by_side(found),
-        leading=lambda finding: 2 if finding.rule.startswith("lower at both") else 1,
         halves=halves_agree(smooth, HALVES) if any(len(g.specimens) > 3 for g in smooth.values()) else None,
         models=models,
         of_models=OF_MODELS,

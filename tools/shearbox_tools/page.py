@@ -13,15 +13,20 @@ TEMPLATES = Path(__file__).parent / "templates"
 
 def render(template: str, **values: Any) -> str:
     """The page that a template of the folder `templates` makes of the values; those it names must be there."""
-    environment = Environment(
-        loader=FileSystemLoader(TEMPLATES),
+    return environment(TEMPLATES).get_template(template).render(**values)
+
+
+def environment(*folders: Path) -> Environment:
+    """Of templates in the folders, with the filters of all pages."""
+    made = Environment(
+        loader=FileSystemLoader(folders),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters.update(duration=duration, number=number, minus=minus)
-    return environment.get_template(template).render(**values)
+    made.filters.update(duration=duration, number=number, minus=minus)
+    return made
 
 
 def number(value: float | None, digits: int = 4) -> str:

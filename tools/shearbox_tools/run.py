@@ -5,8 +5,8 @@ import argparse
 import os
 import signal
 import threading
-from collections.abc import Iterable, Mapping
-from contextlib import ExitStack
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from itertools import zip_longest
 from pathlib import Path
@@ -18,7 +18,7 @@ from .campaign import Campaign
 from .campaign_file import is_campaign
 from .checks import check
 from .display import Display, Whole, duration, make_display
-from .engine import PROGRAM, Engine, Failure, free_bytes
+from .engine import PROGRAM, Engine, free_bytes
 from .errors import InputError, ShearboxError
 from .files import RECORD
 from .forecast import Forecast, total
@@ -60,16 +60,23 @@ def run(options: argparse.Namespace, asked: list[dict[str, Any]]) -> None:
         _say(console, f"{forecast_text(runs, forecasts)}\nin all {total(forecasts, options.jobs)}, into {out}")
         return
     check_disk(out, forecasts)
-    with ExitStack() as stack:
-        folders = dict.fromkeys([out, *(one.folder for one in runs)])
-        locks = {folder: stack.enter_context(locked(folder)) for folder in folders}
-        for one in runs:
-            open_folder(one.folder, one.request)
+    with opened(out, runs) as locks:
         problems = carry_out(runs, engine, options.jobs, locks, console)
         if any(any(_sheared(one)) for one in runs):
             problems = _report(out, console, each=len(asked) == 1) + problems
     if problems:
         raise ShearboxError("\n".join(problems))
+
+
+@contextmanager
+def opened(out: Path, runs: list[Run]) -> Iterator[dict[Path, int]]:
+    """Locks of the folder of all and of those of the runs, whose records are begun or taken up."""
+    with ExitStack() as stack:
+        folders = dict.fromkeys([out, *(one.folder for one in runs)])
+        locks = {folder: stack.enter_context(locked(folder)) for folder in folders}
+        for one in runs:
+            open_folder(one.folder, one.request)
+        yield locks
 
 
 def prepare(options: argparse.Namespace, asked: list[dict[str, Any]]) -> tuple[Path, list[Run], Engine]:

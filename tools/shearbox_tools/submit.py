@@ -20,8 +20,7 @@ from .jobs import JOBS, REPORT, TESTS, Jobs, name_of, read_jobs
 from .layout import Layout
 from .lock import locked
 from .phases import left_to_do
-from .request import open_folder
-from .run import carry_out, check_disk, prepare
+from .run import carry_out, check_disk, opened, prepare
 from .schedulers import Job, Scheduler, find_scheduler
 from .specimens import Run
 
@@ -123,11 +122,7 @@ def _write(out: Path, runs: list[Run], record: Jobs, scripts: dict[str, str], sc
             f"{out}: its jobs have not ended: {', '.join(sorted(set(states.values())))}. 'shearbox status' tells more, "
             "'shearbox cancel' ends them"
         )
-    with ExitStack() as stack:
-        for folder in dict.fromkeys([out, *(run.folder for run in runs)]):
-            stack.enter_context(locked(folder))
-        for run in runs:
-            open_folder(run.folder, run.request)
+    with opened(out, runs):
         (out / JOBS).mkdir(exist_ok=True)
         record.write(out)
         for name, script in scripts.items():
