@@ -21,9 +21,16 @@ struct StepRule {
   double forward;        // by this time the dashpots' velocity is carried forward from the half step (s)
   double gx = 0, gy = 0; // gravity (m/s^2)
   double drag = 0;       // deceleration over the velocity of the half step (1/s)
+  double damping = 0;    // local damping: share of the force that opposes the motion
 
-  bool has_body_forces() const { return gx != 0 || gy != 0 || drag != 0; }
+  bool has_body_forces() const { return gx != 0 || gy != 0 || drag != 0 || damping != 0; }
 };
+
+// A force as large as this one, against the velocity; 0 at rest. Local damping is a share of it (Cundall 1987).
+template <class T> [[gnu::always_inline]] inline T opposing(T force, T velocity) {
+  const T zero{}, size = force < zero ? -force : force;
+  return velocity > zero ? -size : velocity < zero ? size : zero;
+}
 
 // Length of the path of a grain (m), and the sum of the amounts of its rotations (rad), over many steps.
 struct alignas(2 * sizeof(double)) Travel {
@@ -53,8 +60,8 @@ struct Fastest {
   double speed(double reach) const { return std::sqrt(vx2 + vy2) + reach * std::sqrt(omega2); }
 };
 
-// `sum`: fx, fy, torque, and one unused value. body_forces: whether there is gravity or drag. `fastest` is raised to
-// the squares of the new velocities. `travel` may be null.
+// `sum`: fx, fy, torque, and one unused value. body_forces: whether there is gravity, drag or local damping. `fastest`
+// is raised to the squares of the new velocities. `travel` may be null.
 template <bool body_forces>
 [[gnu::always_inline]] inline void advance(Disc<double> &disc, Body &body, Four sum, const StepRule &step,
                                            Four &fastest, Travel *travel) {
@@ -62,8 +69,10 @@ template <bool body_forces>
   const Four place = load_raw<Four>(&disc.x), motion = load_raw<Four>(&disc.vx), of_body = load_raw<Four>(&body.angle);
 
   Four v = __builtin_shufflevector(place, motion, 2, 3, 6, 7); // vx, vy, omega of the half step, and one unused value
-  if constexpr (body_forces)
+  if constexpr (body_forces) {
     sum += body.mass * (Four{step.gx, step.gy, 0, 0} - Four{step.drag, step.drag, 0, 0} * v);
+    sum += step.damping * opposing(sum, v);
+  }
   const Four acceleration = sum * __builtin_shufflevector(of_body, of_body, 2, 2, 3, 3);
   v += half * acceleration;
   v += half * acceleration;

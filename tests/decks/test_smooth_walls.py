@@ -285,3 +285,22 @@ def test_refused(tmp_path: Path, old: str, new: str, message: str) -> None:
     status, output = start(deck.replace(old, new), tmp_path, **UPRIGHT, law="direct", x=-0.004, y=-0.01, gvx=0, gvy=1,
                            gx=0, gy=0, every=10, steps=10)  # fmt: skip
     assert status != 0 and re.search(message, output), output[-800:]
+
+
+LID = """
+fix lid wall cdem/lid stress 1e4 width 0.02 thickness 0.01 from ${side} vmax 1
+thermo_style custom step f_lid[3]
+run 0
+"""
+
+
+@pytest.mark.parametrize(("side", "along", "place"), [("right", "y", -0.002), ("left", "y", 0.002), ("top", "x", -0.002),
+                                                      ("bottom", "x", 0.002), ("top", "y", -0.014)])  # fmt: skip
+def test_the_face_of_a_smooth_lid(tmp_path: Path, side: str, along: str, place: float) -> None:
+    """A wall 4 mm thick has its face 2 mm inside of its axis, and the round end of one that stands on end another 2 mm
+    beyond the axis of its last piece, which is 2 mm longer than the row."""
+    upright: dict[str, Any] = {"ux": 0, "uy": 1} if along == "y" else {"ux": 1, "uy": 0}
+    far = GRAIN.replace("fix wall wall cdem/move speed 0\n", "")
+    out = run(WALL + far + LID, tmp_path, law="direct", style="verlet/cdem", ranks=1, **(UPRIGHT | upright), x=0.03, y=0.03,
+              gvx=0, gvy=0, gx=0, gy=0, side=side)  # fmt: skip
+    assert out.thermo["f_lid[3]"] == pytest.approx(place, abs=1e-12)

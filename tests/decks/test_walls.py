@@ -240,3 +240,74 @@ def test_forces_on_parts_are_those_of_the_fixes(tmp_path: Path, ranks: int, styl
             assert np.array_equal(thermo[f"c_part[{2 * k + axis}]"], thermo[f"f_{part}[{axis + 2}]"]), part
     assert np.all(thermo["c_part[3]"] <= 0) and np.any(thermo["c_part[3]"] < 0) and np.any(thermo["c_part[5]"] > 0)
     assert thermo["c_part[7]"] == pytest.approx(thermo["c_part[3]"] + thermo["c_part[5]"], abs=1e-12)
+
+
+SIDES = """
+include ${decks}/start.in
+group    lid type 3
+fix      move grains cdem/integrate
+fix      lid lid cdem/lid stress ${stress} width 0.02 thickness 0.01 from ${side} vmax 100
+fix      wall walls cdem/move speed 0
+timestep 2e-8
+thermo_style custom step f_lid[1] f_lid[2] f_lid[3] f_lid[4] f_lid[5] f_lid[6]
+thermo_modify format float %.17g
+thermo   100
+run      2000
+"""
+# From coordinates of a lid on top to those of another: x outward, y along.
+TURNED = {"top": (0, 1), "bottom": (0, -1), "right": (1, 1), "left": (1, -1)}
+
+
+@pytest.mark.parametrize("side", ["bottom", "left", "right"])
+def test_a_lid_from_any_side(tmp_path: Path, law: str, ranks: int, side: str) -> None:
+    """It does what a lid on top does, turned: the same bits from below, since a change of sign rounds nothing; from a side to
+    round-off, since the sum of squares of a distance takes x first. A grain that moves along the lid rubs on it."""
+
+    def on(side: str) -> np.ndarray:
+        turned, sign = TURNED[side]
+        discs = []
+        for along, outward, velocity, kind in [(1e-4, -D + 1e-6, 0, 2), (0, 0, 0.1, 1), (-2e-4, D - 1e-6, 0, 3)]:
+            x, y, vx, vy = along, sign * outward, velocity, 0
+            discs.append(Disc(y, x, vx=vy, vy=vx, type=kind) if turned else Disc(x, y, vx=vx, vy=vy, type=kind))
+        out = run(SIDES, tmp_path / side, discs=discs, law=law, ranks=ranks, stress=1e5, side=side)
+        values = np.array([out.thermo[f"f_lid[{k}]"] for k in range(1, 7)])
+        values[2] *= sign  # the place of the lid
+        return values
+
+    top = on("top")
+    assert np.any(top[3] < 0) and np.any(top[5] != 0)
+    if side == "bottom":
+        assert np.array_equal(on(side), top)
+    else:
+        assert on(side) == pytest.approx(top, rel=1e-7)
+
+
+SPRING = """
+include ${decks}/start.in
+group    lid type 3
+fix      move grains cdem/integrate
+variable spring equal ${stress}+${stiffness}*(f_lid[3]-${face})
+fix      lid lid cdem/lid stress v_spring width 0.02 thickness 0.01 vmax 100
+timestep ${dt}
+thermo_style custom step f_lid[1] f_lid[3]
+thermo_modify format float %.17g
+thermo   100
+run      ${steps}
+"""
+
+
+def test_a_lid_of_constant_stiffness(tmp_path: Path, ranks: int) -> None:
+    """Held by a spring, the lid meets nothing and swings: y = y1 - a cos(w t) about the place without stress, y1, with
+    w^2 = K W T/M. Its stress is pressure only until it is there, a quarter of the period."""
+    stress, stiffness, dt = 1e5, 1e8, 1e-7
+    lid = lid_of(5, 0.01)
+    face, amplitude = 0.01 - D / 2, stress / stiffness
+    omega = math.sqrt(stiffness * WIDTH * THICKNESS / (5 * lid[0].mass))
+    steps = int(math.pi / 2 / omega / dt / 100) * 100
+    out = run(SPRING, tmp_path, discs=[GRAIN, *lid], ranks=ranks, stress=stress, stiffness=stiffness, face=face, dt=dt,
+              steps=steps)  # fmt: skip
+    t = out.thermo["Step"] * dt
+    assert out.thermo["f_lid[3]"] == pytest.approx(
+        face - amplitude + amplitude * np.cos(omega * t), abs=1e-4 * amplitude
+    )
+    assert out.thermo["f_lid[1]"] == pytest.approx(stress * np.cos(omega * t), abs=1e-4 * stress)

@@ -81,7 +81,8 @@ struct Scene {
       for (int s = pairs.first_segment[block]; s < pairs.first_segment[block + 1]; s++)
         kernels.forces(discs.data(), columns, pairs.segments[s].material, pairs.segments[s].begin,
                        pairs.segments[s].end, DT);
-      kernels.advance(slots.block(block), discs.data(), bodies.data(), {DT, DT / 2, 3, -10, 5}, fastest, travel.data());
+      kernels.advance(slots.block(block), discs.data(), bodies.data(), {DT, DT / 2, 3, -10, 5, 0.2}, fastest,
+                      travel.data());
     }
   }
 };
@@ -137,6 +138,9 @@ void plain_advance(const SlotBlock &block, Disc<double> *discs, Body *bodies, co
       Body &body = bodies[block.order[d]];
       fx += body.mass * (step.gx - step.drag * disc.vx_half);
       fy += body.mass * (step.gy - step.drag * disc.vy_half);
+      fx -= step.damping * std::copysign(fx, disc.vx_half);
+      fy -= step.damping * std::copysign(fy, disc.vy_half);
+      torque -= step.damping * std::copysign(torque, disc.omega_half);
       const double ax = fx * body.inverse_mass, ay = fy * body.inverse_mass, alpha = torque * body.inverse_inertia;
       for (int half = 0; half < 2; half++) {
         disc.vx_half += 0.5 * step.dt * ax;

@@ -161,7 +161,7 @@ std::uint64_t FixCDEMGrains::fingerprint_of_rules() const {
 }
 
 cdem::StepRule FixCDEMGrains::step_rule() const {
-  return {update->dt, 0.5 * update->dt * weight, gravity[0], gravity[1], drag};
+  return {update->dt, 0.5 * update->dt * weight, gravity[0], gravity[1], drag, damping};
 }
 
 double FixCDEMGrains::memory_usage() { return double(atom->nmax) * NCOLUMNS * sizeof(double); }

@@ -4,12 +4,12 @@
 // made. The fix stays when fix cdem/integrate is defined anew, so grains keep their angles. The state migrates with the
 // grains and is in restart files.
 //
-// It also has the forces of the last step, on grains and walls: those of the contacts, gravity and drag. A run begins
-// with them, since setup cannot compute them again: in a step the dashpots follow other velocities, and a contact that
-// closed within it has its share of it. So runs cut in two give the bits of one. They hold for the scene to which they
-// belong, and only for it: where each atom is, how it moves, mass, size, type and whether it is a grain, the rules
-// (contact law, shapes, gravity, drag, time step) and the periods of the box. If anything of it has changed, a run
-// begins with the forces that setup computes.
+// It also has the forces of the last step, on grains and walls: those of the contacts, gravity, drag and damping. A run
+// begins with them, since setup cannot compute them again: in a step the dashpots follow other velocities, and a
+// contact that closed within it has its share of it. So runs cut in two give the bits of one. They hold for the scene
+// to which they belong, and only for it: where each atom is, how it moves, mass, size, type and whether it is a grain,
+// the rules (contact law, shapes, gravity, drag, damping, time step) and the periods of the box. If anything of it has
+// changed, a run begins with the forces that setup computes.
 #pragma once
 
 #include "core/disc_motion.h"
@@ -95,9 +95,9 @@ public:
   void set_shapes(bool yes);
 
   // --- how the time is stepped ---
-  // Gravity (m/s^2), drag (1/s), and the share of half a step by which the dashpots' velocity is carried forward (see
-  // core/stability.h).
-  double gravity[2] = {0, 0}, drag = 0, weight = 0;
+  // Gravity (m/s^2), drag (1/s), local damping, and the share of half a step by which the dashpots' velocity is carried
+  // forward (see core/stability.h).
+  double gravity[2] = {0, 0}, drag = 0, damping = 0, weight = 0;
   cdem::StepRule step_rule() const;
 
   int setmask() override { return 0; }

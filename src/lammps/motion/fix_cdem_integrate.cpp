@@ -53,10 +53,10 @@ FixCDEMIntegrate::FixCDEMIntegrate(LAMMPS *lmp, int narg, char **arg)
     else if (words.take("rescue"))
       set_rescue(words.word("rescue: a file or none"));
     else if (!take_body_force(words))
-      error->all(
-          FLERR,
-          "Fix cdem/integrate: unknown keyword {}; allowed: {}, gravity GX GY, drag T, inertia F, rescue FILE|none",
-          words.word("a keyword"), StepChoice::WORDS);
+      error->all(FLERR,
+                 "Fix cdem/integrate: unknown keyword {}; allowed: {}, gravity GX GY, drag T, damping A, inertia F, "
+                 "rescue FILE|none",
+                 words.word("a keyword"), StepChoice::WORDS);
   }
 
   time_integrate = 1;
@@ -99,6 +99,10 @@ bool FixCDEMIntegrate::take_body_force(Shearbox::DeckWords &words) {
     if (!(time > 0))
       error->all(FLERR, "Fix cdem/integrate: drag {}: the time must be positive (s), or none", time);
     drag = 1 / time;
+  } else if (words.take("damping")) {
+    damping = words.finite("damping");
+    if (!(damping >= 0 && damping < 1))
+      error->all(FLERR, "Fix cdem/integrate: damping {}: must be from 0 to less than 1 (share of the force)", damping);
   } else {
     return false;
   }
@@ -121,6 +125,7 @@ void FixCDEMIntegrate::tell_grains() {
   grains->set_inertias(inertia);
   std::copy_n(gravity, 2, grains->gravity);
   grains->drag = drag;
+  grains->damping = damping;
 }
 
 int FixCDEMIntegrate::setmask() {
@@ -163,7 +168,7 @@ void FixCDEMIntegrate::tell_rules() {
       rules.add(shape.axis(1).ux).add(shape.axis(1).uy);
     rules.add(grains->inertia(type));
   }
-  grains->set_rules(rules.add(gravity[0]).add(gravity[1]).add(drag).add(update->dt).value());
+  grains->set_rules(rules.add(gravity[0]).add(gravity[1]).add(drag).add(damping).add(update->dt).value());
 }
 
 void FixCDEMIntegrate::refuse_lost_shapes() const {
@@ -308,6 +313,30 @@ void FixCDEMIntegrate::add_body_forces() {
   }
   if (!update->setupflag)
     book_drag_at([this](int i) { return std::pair(atom->v[i][0], atom->v[i][1]); });
+  if (damping != 0)
+    damp();
+}
+
+void FixCDEMIntegrate::damp() {
+  double lost = 0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!grains->is_free(i))
+      continue;
+    const FixCDEMGrains::Inverse inverse = grains->inverse(i);
+    for (int k = 0; k < 2; k++)
+      damp(atom->f[i][k], atom->v[i][k], inverse.mass, lost);
+    damp(atom->torque[i][2], atom->omega[i][2], inverse.inertia, lost);
+  }
+  if (audit && !update->setupflag)
+    audit->books.drag += update->dt * lost;
+}
+
+// Adds to `lost` the power that damping takes out (W), at the velocity in the middle of the kick: that of the half step
+// is half a step behind.
+void FixCDEMIntegrate::damp(double &force, double velocity, double inverse_mass, double &lost) const {
+  const double resistance = damping * cdem::opposing(force, velocity);
+  force += resistance;
+  lost -= resistance * (velocity + 0.5 * update->dt * inverse_mass * force);
 }
 
 void FixCDEMIntegrate::book_drag(const GrainRows &rows) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// fix ID group cdem/integrate [dt check|any|auto [MAX]|contacts [MAX]] [gravity GX GY] [drag T|none] [inertia F]
-//                             [rescue FILE|none]
+// fix ID group cdem/integrate [dt check|any|auto [MAX]|contacts [MAX]] [gravity GX GY] [drag T|none]
+//                             [damping A] [inertia F] [rescue FILE|none]
 // fix_modify ID gravity GX GY
 // fix_modify ID drag T|none
+// fix_modify ID damping A
 //
 // Velocity Verlet for grains in two dimensions, with inertia I = m r^2/2 for a disc, or as fix cdem/shape has it. Atoms
 // outside the group are walls: contacts do not move them. Exactly one fix of this style must exist, and no other
@@ -19,6 +20,11 @@
 //   gravity      acceleration of the grains (m/s^2, default 0 0)
 //   drag         of a medium at rest: force -m v/T on each grain, T > 0 (s, default: none); v is the velocity of the
 //                half step
+//   damping      local damping (Cundall 1987; PFC and YADE have it): of each grain, each component of the force from
+//                contacts, gravity and drag, and the torque, is lowered by its A-fold, 0 <= A < 1, while it drives the
+//                motion (has the sign of the velocity of the half step), and raised by it while it resists. Not a
+//                force of nature: for states of equilibrium, in which it vanishes, not for grains that fall or flow
+//                (default 0)
 //   inertia      factor on the moment of inertia of all grains, F > 0 (default: 1), to study how rolling depends on it
 //   rescue       restart file to write when the run fails (default: rescue.restart in the current folder; none beyond
 //                100000 atoms per rank, since the copies from which it is written take about 630 bytes per atom)
@@ -95,6 +101,8 @@ public:
   void write_restart(FILE *) override;
   void restart(char *) override;
 
+  // What damping takes out is booked from the forces, which only a step on the atoms has.
+  bool needs_every_step() const override { return audit && damping != 0; }
   // Books the energy that drag takes out in a step made on the rows, if there is an audit.
   void book_drag(const GrainRows &);
   // Has the neighbour list rebuilt in the next step.
@@ -117,12 +125,14 @@ private:
   void take_accelerations();
   double smallest_disc() const;
   template <class Velocity> void book_drag_at(Velocity);
+  void damp();
+  void damp(double &force, double velocity, double inverse_mass, double &lost) const;
 
   StepChoice step;
   DiscPairList *contacts = nullptr;
   FixCDEMGrains *grains = nullptr;
   FixCDEMAudit *audit = nullptr;
-  double gravity[2] = {0, 0}, drag = 0; // m/s^2, 1/s
+  double gravity[2] = {0, 0}, drag = 0, damping = 0; // m/s^2, 1/s, share of the force
   double inertia_factor = 1;
   double known_dt = 0;   // s, for which the step has been checked
   bool goes_on = false;  // the run begins with the forces of the last step

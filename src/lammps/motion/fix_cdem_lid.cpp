@@ -2,6 +2,7 @@
 #include "motion/fix_cdem_lid.h"
 
 #include "contacts/pair_cdem.h"
+#include "grains/fix_cdem_shape.h"
 
 #include "host/packed_state.h"
 
@@ -34,13 +35,16 @@ FixCDEMLid::FixCDEMLid(LAMMPS *lmp, int narg, char **arg) : WallBody(lmp, narg, 
       width = words.number("width");
     else if (keyword == "thickness")
       thickness = words.number("thickness");
+    else if (keyword == "from")
+      read_side(words);
     else if (keyword == "vmax") {
       if (words.take("auto"))
         given_cap = 0;
       else if (!((given_cap = words.number("vmax")) > 0 && std::isfinite(given_cap)))
         error->all(FLERR, "Fix cdem/lid {}: vmax {}: must be positive (m/s), or auto", id, given_cap);
     } else
-      error->all(FLERR, "Fix cdem/lid {}: unknown keyword {}; allowed: stress, width, thickness, vmax", id, keyword);
+      error->all(FLERR, "Fix cdem/lid {}: unknown keyword {}; allowed: stress, width, thickness, from, vmax", id,
+                 keyword);
   }
   if (!has_stress)
     error->all(FLERR, "Fix cdem/lid {}: stress (Pa) is missing", id);
@@ -65,6 +69,14 @@ void FixCDEMLid::read_stress(Shearbox::DeckWords &words) {
   stress = words.number("stress");
 }
 
+void FixCDEMLid::read_side(Shearbox::DeckWords &words) {
+  const std::string side = words.word("from");
+  if (side != "top" && side != "bottom" && side != "left" && side != "right")
+    error->all(FLERR, "Fix cdem/lid {}: from is {}, must be top, bottom, left or right", id, side);
+  axis = side == "left" || side == "right" ? X : Y;
+  sign = side == "top" || side == "right" ? 1 : -1;
+}
+
 void FixCDEMLid::init() {
   WallBody::init();
   mass = total_mass();
@@ -80,21 +92,25 @@ void FixCDEMLid::init() {
       error->all(FLERR, "Fix cdem/lid {}: variable {} is not of style equal", id, stress_variable);
   }
   velocity = group_velocity();
-  set_motion({0, velocity}, {0, acceleration});
+  set_motion(outward(velocity), outward(acceleration));
+}
+
+WallBody::Vector FixCDEMLid::outward(double amount) const {
+  return axis == X ? Vector{sign * amount, 0} : Vector{0, sign * amount};
 }
 
 // The velocity that all discs have. If they differ (a new lid, or one that was set in motion by hand): momentum over
 // mass.
 double FixCDEMLid::group_velocity() const {
-  double extremes[2] = {-INFINITY, -INFINITY}, all[2]; // largest vy and -vy
+  double extremes[2] = {-INFINITY, -INFINITY}, all[2]; // largest velocity outward, and inward
   for (int i = 0; i < atom->nlocal; i++) {
     if (!in_group(i))
       continue;
-    extremes[0] = std::max(extremes[0], atom->v[i][1]);
-    extremes[1] = std::max(extremes[1], -atom->v[i][1]);
+    extremes[0] = std::max(extremes[0], sign * atom->v[i][axis]);
+    extremes[1] = std::max(extremes[1], -sign * atom->v[i][axis]);
   }
   MPI_Allreduce(extremes, all, 2, MPI_DOUBLE, MPI_MAX, world);
-  return all[0] == -all[1] ? all[0] : momentum_y() / mass;
+  return all[0] == -all[1] ? all[0] : sign * momentum(axis) / mass;
 }
 
 double FixCDEMLid::largest_stiffness() const {
@@ -122,7 +138,7 @@ void FixCDEMLid::update_stress() {
 }
 
 void FixCDEMLid::take_acceleration() {
-  felt_force = force_y();
+  felt_force = sign * total_force(axis);
   acceleration = (felt_force - stress * width * thickness) / mass;
 }
 
@@ -131,8 +147,8 @@ void FixCDEMLid::start() {
   take_acceleration();
   if (velocity <= -fastest() && acceleration < 0)
     acceleration = 0;
-  set_motion({0, velocity}, {0, acceleration});
-  book_start({0, felt_force});
+  set_motion(outward(velocity), outward(acceleration));
+  book_start(outward(felt_force));
 }
 
 // Other fixes may still add to the forces in their setup(): so the first step starts anew.
@@ -148,25 +164,25 @@ void FixCDEMLid::initial_integrate(int) {
   is_first = false;
   velocity += 0.5 * update->dt * acceleration;
   capped = cap();
-  shift({0, update->dt * velocity}, {0, velocity});
+  shift(outward(update->dt * velocity), outward(velocity));
 }
 
 void FixCDEMLid::final_integrate() {
   update_stress();
   take_acceleration();
-  book_work({0, felt_force});
+  book_work(outward(felt_force));
   velocity += 0.5 * update->dt * acceleration;
   if (cap()) {
     capped = true;
     acceleration = 0; // at its cap the lid moves uniformly
   }
   capped_steps += capped;
-  set_motion({0, velocity}, {0, acceleration});
+  set_motion(outward(velocity), outward(acceleration));
 }
 
 double FixCDEMLid::fastest() const { return given_cap > 0 ? given_cap : cap_per_force * stress * width * thickness; }
 
-// Limits the speed downward; true if it was higher.
+// Limits the speed inward; true if it was higher.
 bool FixCDEMLid::cap() {
   if (velocity >= -fastest())
     return false;
@@ -174,13 +190,22 @@ bool FixCDEMLid::cap() {
   return true;
 }
 
-double FixCDEMLid::lower_face() const {
-  double lowest = INFINITY, all;
+double FixCDEMLid::inner_face() const {
+  double innermost = INFINITY, all;
   for (int i = 0; i < atom->nlocal; i++)
     if (in_group(i))
-      lowest = std::min(lowest, atom->x[i][1] - atom->radius[i]);
-  MPI_Allreduce(&lowest, &all, 1, MPI_DOUBLE, MPI_MIN, world);
-  return all;
+      innermost = std::min(innermost, sign * atom->x[i][axis] - reach(i));
+  MPI_Allreduce(&innermost, &all, 1, MPI_DOUBLE, MPI_MIN, world);
+  return sign * all;
+}
+
+// From the centre of an atom inward (m). A piece of a straight wall is as thick as long, see fix cdem/shape.
+double FixCDEMLid::reach(int i) const {
+  const cdem::GrainShape &shape = FixCDEMShape::shape(lmp, atom->type[i]);
+  if (!shape.is_line())
+    return atom->radius[i];
+  const cdem::WallLine line = shape.axis(atom->radius[i]);
+  return 0.5 * atom->radius[i] + line.half * std::fabs(axis == X ? line.ux : line.uy);
 }
 
 double FixCDEMLid::compute_vector(int n) {
@@ -189,14 +214,14 @@ double FixCDEMLid::compute_vector(int n) {
     return stress;
   case FELT:
     return felt_force / (width * thickness);
-  case HEIGHT:
-    return lower_face();
+  case FACE:
+    return inner_face();
   case VELOCITY:
     return velocity;
   case CAPPED_STEPS:
     return capped_steps;
   default:
-    return force_x();
+    return total_force(axis == X ? Y : X);
   }
 }
 

@@ -1,26 +1,35 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// fix ID group cdem/lid stress SIGMA width W thickness T [vmax V|auto]
+// fix ID group cdem/lid stress SIGMA width W thickness T [from top|bottom|left|right] [vmax V|auto]
 //
-// A rigid, horizontal lid under a constant normal stress. The discs of the group form one body that only moves
-// vertically: its mass M is the sum of theirs, and M dv/dt = sum of contact f_y - F, with F = SIGMA W T downward.
-// Velocity Verlet as in fix cdem/integrate, so the lid needs no servo and no gains. The applied stress is exact. The
-// felt stress, that of the grains on the lid, differs from it only by the inertia of the lid, M dv/dt/(W T), and while
-// the speed is limited to V.
+// A rigid lid under a constant normal stress. The discs of the group form one body that moves only along its normal,
+// vertically for a lid on top of the grains: its mass M is the sum of theirs, and M dv/dt = N - F, with N the sum of
+// contact forces outward (up, for a lid on top) and F = SIGMA W T inward. Velocity Verlet as in fix cdem/integrate, so
+// the lid needs no servo and no gains. The applied stress is exact. The felt stress, that of the grains on the lid,
+// differs from it only by the inertia of the lid, M dv/dt/(W T), and while the speed is limited to V.
 //
 //   SIGMA  normal stress, >= 0 (Pa); or v_name, an equal-style variable that is evaluated in every step
 //   W, T   width and thickness on which it acts, > 0 (m)
-//   V      largest speed of the lid downward, > 0 (m/s). Default auto = F/sqrt(n kn M), kn the largest normal
+//   from   side of the grains on which the lid is (default: top)
+//   V      largest speed of the lid inward, > 0 (m/s). Default auto = F/sqrt(n kn M), kn the largest normal
 //          stiffness, n the number of discs: if the lid hits a rigid bed with all discs at once at speed v, the force
-//          of the impact is v sqrt(n kn M), so it is never more than F itself. Needs pair_style cdem. The speed upward
+//          of the impact is v sqrt(n kn M), so it is never more than F itself. Needs pair_style cdem. The speed outward
 //          is not limited.
+//
+// A variable makes other boundaries of it. Of constant normal stiffness K (Pa/m), as rock or a pile's soil around a
+// shear zone, with f_lid[3] the place of the lid and h0 that at which its stress is SIGMA:
+//
+//   variable spring equal 1e5+${K}*(f_lid[3]-${h0})
+//   fix      lid lid cdem/lid stress v_spring width 0.1 thickness 0.01
+//
+// Of constant volume it is a lid that does not move, whose stress is the force on it: fix cdem/move with speed 0.
 //
 // stress, width and thickness must be given. The mass of the group must be positive; its discs must not be in the group
 // of fix cdem/integrate, nor in that of another fix of style cdem/lid or cdem/move. Needs dimension 2 and atom_style
 // sphere.
 //
-// Global vector: 1 applied stress (Pa), 2 felt stress = sum of f_y/(W T) (Pa), 3 height of the lower face (m), that is
-// of the lowest point of its discs, 4 velocity (m/s), 5 number of steps in which V limited the velocity, 6 horizontal
-// force of the grains on the lid (N). Runs continued from restart files give the same bits.
+// Global vector: 1 applied stress (Pa), 2 felt stress = N/(W T) (Pa), 3 place of the inner face (m), for a lid on top
+// the y of its lowest point, 4 velocity outward (m/s), 5 number of steps in which V limited the velocity, 6 force of
+// the grains along the lid, f_x or f_y (N). Runs continued from restart files give the same bits.
 #pragma once
 
 #include "motion/wall_body.h"
@@ -45,7 +54,7 @@ public:
   void restart(char *) override;
 
 private:
-  enum Output { APPLIED, FELT, HEIGHT, VELOCITY, CAPPED_STEPS, FORCE_X, NOUTPUTS };
+  enum Output { APPLIED, FELT, FACE, VELOCITY, CAPPED_STEPS, FORCE_ALONG, NOUTPUTS };
 
   struct Saved {
     static constexpr int VERSION = 3;
@@ -54,9 +63,12 @@ private:
   };
 
   void read_stress(Shearbox::DeckWords &);
+  void read_side(Shearbox::DeckWords &);
   double group_velocity() const;
   double largest_stiffness() const;
-  double lower_face() const;
+  double inner_face() const;
+  double reach(int i) const;
+  Vector outward(double amount) const;
   void update_stress();
   void take_acceleration();
   void start();
@@ -66,15 +78,16 @@ private:
   std::string stress_variable; // empty: constant
   int variable_index = -1;
   double stress = 0, width = 0, thickness = 0;
+  Axis axis = Y;        // of the normal
+  double sign = 1;      // of the direction outward along it
   double given_cap = 0; // 0: automatic
 
   double mass = 0;
-  double cap_per_force = 0; // automatic cap over F
-  double felt_force = 0;
-  double velocity = 0, acceleration = 0;
-  bool capped = false;     // in this step
-  bool is_first = false;   // the next step is the first of a run
-  double capped_steps = 0; // in restart files
+  double cap_per_force = 0;                              // automatic cap over F
+  double felt_force = 0, velocity = 0, acceleration = 0; // outward
+  bool capped = false;                                   // in this step
+  bool is_first = false;                                 // the next step is the first of a run
+  double capped_steps = 0;                               // in restart files
 };
 
 } // namespace LAMMPS_NS

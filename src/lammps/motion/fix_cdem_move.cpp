@@ -106,7 +106,7 @@ void FixCDEMMove::setup(int) {
     book_start(force());
 }
 
-WallBody::Vector FixCDEMMove::force() const { return along(vertical ? force_y() : force_x()); }
+WallBody::Vector FixCDEMMove::force() const { return along(vertical ? total_force(Y) : total_force(X)); }
 
 double FixCDEMMove::compute_vector(int n) {
   switch (n) {
@@ -115,9 +115,9 @@ double FixCDEMMove::compute_vector(int n) {
   case SPEED:
     return now.speed;
   case FORCE_X:
-    return force_x();
+    return total_force(X);
   default:
-    return force_y();
+    return total_force(Y);
   }
 }
 

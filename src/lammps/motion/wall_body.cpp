@@ -90,16 +90,12 @@ template <class Term> double WallBody::sum(Term term) const {
   return Shearbox::over_ranks(mine, world);
 }
 
-double WallBody::force_x() const {
-  return sum([this](int i) { return atom->f[i][0]; });
+double WallBody::total_force(Axis axis) const {
+  return sum([=](int i) { return atom->f[i][axis]; });
 }
 
-double WallBody::force_y() const {
-  return sum([this](int i) { return atom->f[i][1]; });
-}
-
-double WallBody::momentum_y() const {
-  return sum([this](int i) { return atom->rmass[i] * atom->v[i][1]; });
+double WallBody::momentum(Axis axis) const {
+  return sum([=](int i) { return atom->rmass[i] * atom->v[i][axis]; });
 }
 
 double WallBody::total_mass() const {

@@ -40,6 +40,7 @@ public:
 
 protected:
   using Vector = GrainRows::Vector;
+  enum Axis { X, Y };
 
   bool in_group(int i) const;
 
@@ -48,9 +49,8 @@ protected:
 
   // Sums over the discs (N, kg m/s, kg), with the same bits for any number of ranks. The force is that of the contacts
   // and of all else that writes f.
-  double force_x() const;
-  double force_y() const;
-  double momentum_y() const;
+  double total_force(Axis) const;
+  double momentum(Axis) const;
   double total_mass() const;
 
   // Sets the velocity of all discs (m/s), and the acceleration (m/s^2) with which the velocity of the contacts'

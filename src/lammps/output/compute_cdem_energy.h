@@ -14,7 +14,7 @@
 //   4 tangential   the part of 3 that is e_s^2/(2 k_s)
 //   5 friction     lost where contacts slide, or roll at the limit of the rolling resistance
 //   6 dashpots     lost in the dashpots
-//   7 drag         lost to the drag of fix cdem/integrate
+//   7 drag         lost to drag and local damping of fix cdem/integrate
 //   8 walls        work that the walls of fixes cdem/lid and cdem/move did on the grains
 //   9 gravity      work of the gravity of fix cdem/integrate, which must not be changed during the audit
 //   10 residual    the increase of the energy of the grains and springs since then, plus 5 to 7, less 8 and 9
