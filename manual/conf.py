@@ -19,6 +19,7 @@ extensions = ["myst_parser"]
 source_suffix = {".md": "markdown"}
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
+man_pages = [("generated/commands", "shearbox", "the 2D direct shear test of sand by DEM", "", 1)]
 html_theme = "furo"
 html_title = f"Shearbox {release}"
 html_math_renderer = "mathml"

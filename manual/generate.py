@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Pages that are made of the sources, so that there is one text: styles of their headers, parameters and columns of the decks,
-commands of the command line."""
+commands of the command line, cases of their READMEs."""
 
 import argparse
 import re
@@ -13,6 +13,7 @@ from shearbox_tools.parameters import parameters
 ROOT = Path(__file__).resolve().parents[1]
 _SPECIAL = re.compile(r"([\\`*_{}\[\]<>#$|~])")
 WIDTH = 100  # of the texts of --help
+CASES = ("pour", "hopper", "pile", "biaxial", "simple_shear")  # of examples/, other tests than direct shear
 
 
 class _Formatter(argparse.HelpFormatter):
@@ -27,7 +28,9 @@ def write_all(folder: Path) -> None:
     folder.mkdir(exist_ok=True)
     headers = style_headers()
     pages = {style_name(h): style_page(h) for h in headers}
+    pages |= {f"case_{name}": case_page(name) for name in CASES}
     pages |= {
+        "cases": cases_page(),
         "styles": styles_page(headers),
         "parameters": parameters_page(),
         "columns": columns_page(),
@@ -96,6 +99,24 @@ def styles_page(headers: list[Path]) -> str:
     names = "\n".join(style_name(header) for header in headers)
     return (
         f"# Styles\n\nThe same texts as at the top of their headers.\n\n```{{toctree}}\n:maxdepth: 1\n\n{names}\n```\n"
+    )
+
+
+def case_page(name: str) -> str:
+    """Its README, without the licence, and its deck."""
+    folder = ROOT / "examples" / name
+    text = (folder / "README.md").read_text(encoding="utf-8").split("\n", 1)[1]
+    text = re.sub(r"\]\((\w+\.png)\)", rf"](../../examples/{name}/\1)", text)
+    deck = (folder / f"{name}.in").read_text(encoding="utf-8").strip()
+    return f"{text.strip()}\n\n## The deck\n\n{_code(deck)}\n"
+
+
+def cases_page() -> str:
+    """The list of them."""
+    names = "\n".join(f"case_{name}" for name in CASES)
+    return (
+        "# Other tests\n\nShort decks of tests other than direct shear, each with a check. They are in `examples/` of the source.\n\n"
+        f"```{{toctree}}\n:maxdepth: 1\n\n{names}\n```\n"
     )
 
 

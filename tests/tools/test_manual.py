@@ -79,3 +79,17 @@ def test_on_a_phone(manual: Path, tmp_path: Path) -> None:
     assert body
     widths = dict(zip((str(page.relative_to(manual)) for page in pages), json.loads(body[1])))
     assert len(widths) > 25 and {name: width for name, width in widths.items() if width > 390} == {}
+
+
+def test_the_man_page(manual: Path) -> None:
+    """It has the commands with their options, as man shows them."""
+    page = (manual / "man" / "shearbox.1").read_text(encoding="utf-8")
+    assert page.count(".SH") > 8 and page.startswith('.\\"')
+    assert "usage: shearbox run" in page.replace("\\", "") and "--accuracy" in page.replace("\\", "")
+
+
+@pytest.mark.parametrize("case", ["pour", "hopper", "pile", "biaxial", "simple_shear"])
+def test_cases_have_their_deck_and_picture(manual: Path, case: str) -> None:
+    page = (manual / "generated" / f"case_{case}.html").read_text(encoding="utf-8")
+    assert f"{case}.png" in page and (manual / "_images" / f"{case}.png").stat().st_size > 1000
+    assert "pair_coeff" in page and "SPDX" not in page.split("The deck")[0]

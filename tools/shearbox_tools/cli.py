@@ -26,7 +26,12 @@ def main(arguments: list[str] | None = None) -> int:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # Latin-1 has no greek letters, and a stranger's path may have any
-    options = make_parser().parse_args(arguments)
+    parser = make_parser()
+    if "_ARGCOMPLETE" in os.environ:  # a shell asks what may follow (README)
+        import argcomplete
+
+        argcomplete.autocomplete(parser)
+    options = parser.parse_args(arguments)
     signals = [signal.SIGTERM, signal.SIGHUP]
     for sign in signals:
         signal.signal(sign, _interrupt)
@@ -66,6 +71,20 @@ def make_parser() -> argparse.ArgumentParser:
     _add_submit(commands)
     _add_jobs(commands)
     return parser
+
+
+def _complete(argument: argparse.Action) -> None:
+    """Let shells offer the names of models and folders for it."""
+
+    def names(prefix: str, **_: Any) -> list[str]:
+        from argcomplete.completers import FilesCompleter
+
+        from .models import model_files
+
+        known = [file.stem for file in model_files()]
+        return [*(name for name in known if name.startswith(prefix)), *FilesCompleter()(prefix)]
+
+    setattr(argument, "completer", names)  # where argcomplete looks for it
 
 
 def _add_json(parser: argparse.ArgumentParser) -> None:
@@ -132,10 +151,11 @@ def _add_what_to_run(run: argparse.ArgumentParser) -> None:
 
 def _add_options_of_a_run(run: argparse.ArgumentParser) -> None:
     """Those that a campaign file may have, too."""
-    run.add_argument("model", metavar="MODEL",
+    model = run.add_argument("model", metavar="MODEL",
                      help="name of a model, as 'shearbox models' lists them, or of any other box, as 'shearbox model --help' has "
                      "them; or the path of a model file, NAME.in; or the folder of earlier runs, which go on as they were asked "
                      "for; or a campaign file, NAME.toml, that asks for many runs, as those of tools/paper_tools/campaigns")  # fmt: skip
+    _complete(model)
     run.add_argument("--stress", metavar="KPA", type=_stress, nargs="+", action="extend",
                      help="normal stresses, kPa (default: 100 200 300 400)")  # fmt: skip
     run.add_argument("--accuracy", choices=list(SPEEDS),
