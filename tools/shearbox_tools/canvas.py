@@ -7,6 +7,8 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Colormap, Normalize
 from matplotlib.figure import Figure
 
+from .style import as_uri
+
 INK = "#23282e"
 PICTURE_WIDTH = 4.2  # inches
 STRIP = 0.1  # height of the strip with scale and arrow, of the picture's width
@@ -14,13 +16,23 @@ STRIP_FONT = 12  # points
 SCALE_WIDTH = 3.6  # of the scale of colours, inches
 
 
-def empty_picture(low: np.ndarray, high: np.ndarray) -> tuple[Figure, Axes]:
-    """A picture to scale from the corner low to the corner high, (2,) each, m, as `furnish` has it."""
-    width, height = high - low
-    figure = Figure(figsize=(PICTURE_WIDTH, PICTURE_WIDTH * height / width))
-    axes = figure.add_axes((0, 0, 1, 1))
-    furnish(axes, low, high)
-    return figure, axes
+class Canvas:
+    """For pictures to scale from the corner low to the corner high, (2,) each, m, as `furnish` has them: what is drawn on its
+    axes is taken off with each picture, since to make axes costs more than to draw."""
+
+    def __init__(self, low: np.ndarray, high: np.ndarray) -> None:
+        width, height = high - low
+        self._figure = Figure(figsize=(PICTURE_WIDTH, PICTURE_WIDTH * height / width))
+        self.axes = self._figure.add_axes((0, 0, 1, 1))
+        furnish(self.axes, low, high)
+        self._furniture = self.axes.get_children()
+
+    def take(self, dpi: int) -> str:
+        """What is drawn, as a WebP picture in a data: URI; the canvas is empty then."""
+        picture = as_uri(self._figure, "webp", dpi)
+        for drawn in set(self.axes.get_children()).difference(self._furniture):
+            drawn.remove()
+        return picture
 
 
 def furnish(axes: Axes, low: np.ndarray, high: np.ndarray) -> None:

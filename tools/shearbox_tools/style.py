@@ -9,6 +9,8 @@ from typing import Any
 
 import matplotlib
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
 matplotlib.use("Agg")
@@ -91,11 +93,12 @@ def name_stresses(axes: Axes, of: dict[float, Look]) -> None:
 
 def as_uri(figure: Figure, kind: str, dpi: int = 200) -> str:
     """The figure as a data: URI, 'svg', or for what has hundreds of parts 'webp' of so many dpi, to be embedded in a page."""
-    buffer = io.BytesIO()
+    buffer = io.BytesIO()  # not by savefig, which draws what has a layout twice
     if kind == "svg":
-        figure.savefig(buffer, format=kind, metadata={"Date": None})
+        FigureCanvasSVG(figure).print_svg(buffer, metadata={"Date": None})
     else:
+        figure.dpi = dpi
         # method 2: half the time of the default, 4, and 1.4 % more bytes
-        figure.savefig(buffer, format=kind, dpi=dpi, pil_kwargs={"quality": 85, "method": 2})
+        FigureCanvasAgg(figure).print_webp(buffer, pil_kwargs={"quality": 85, "method": 2})
     mime = "image/svg+xml" if kind == "svg" else f"image/{kind}"
     return f"data:{mime};base64,{base64.b64encode(buffer.getvalue()).decode()}"
