@@ -56,15 +56,15 @@ def draw_specimens(specimens: dict[float, Stills]) -> dict[str, str]:
     turned = Normalize(-(limit := _largest_rotation(specimens)), limit)
     per_stress = max(_largest_force(stills) / sigma for sigma, stills in specimens.items())
     with rc_context(RC):
-        pictures = {"rotation scale": as_uri(colour_scale(turned, ROTATIONS, ROTATION_TITLE), "svg")}
+        pictures = {"rotation scale": as_uri(colour_scale(turned, ROTATIONS, ROTATION_TITLE))}
         for sigma, stills in specimens.items():
-            canvas = Canvas(*extent(list(stills.moments.values())))
+            canvas = Canvas(*extent(list(stills.moments.values())), DPI)
             for name, moment in stills.moments.items():
                 rotation = np.degrees(moment.rotation_since(stills.before))
                 draw_discs(canvas.axes, moment, ROTATIONS(turned(rotation)))
-                pictures[f"{sigma:g} {name} rotation"] = canvas.take(DPI)
+                pictures[f"{sigma:g} {name} rotation"] = canvas.take()
                 draw_chains(canvas.axes, moment, sigma * per_stress)
-                pictures[f"{sigma:g} {name} forces"] = canvas.take(DPI)
+                pictures[f"{sigma:g} {name} forces"] = canvas.take()
     return pictures
 
 

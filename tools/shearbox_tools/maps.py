@@ -50,17 +50,17 @@ def draw_maps(specimens: dict[float, dict[str, Fields]]) -> dict[str, str]:
     largest = max(float(np.nanquantile(f.mean_stress + f.deviator, RANGE[1])) / sigma for sigma, _, f in every)
     pictures = {}
     with rc_context(RC):
-        canvases = {sigma: Canvas(*_extent(list(by_name.values()))) for sigma, by_name in specimens.items()}
+        canvases = {sigma: Canvas(*_extent(list(by_name.values())), DPI) for sigma, by_name in specimens.items()}
         for key, kind in KINDS.items():
             colours = _colours([_values(key, fields, sigma) for sigma, _, fields in every], kind.from_zero)
             extend = "max" if kind.from_zero else "both"
-            pictures[f"{key} scale"] = as_uri(colour_scale(colours, kind.colormap, kind.title, extend), "svg")
+            pictures[f"{key} scale"] = as_uri(colour_scale(colours, kind.colormap, kind.title, extend))
             for sigma, name, fields in every:
                 canvas = canvases[sigma]
                 _draw_cells(canvas.axes, fields, _values(key, fields, sigma), colours, kind)
                 if key == "stress":
                     _draw_crosses(canvas.axes, fields, largest * sigma)
-                pictures[f"{sigma:g} {name} {key}"] = canvas.take(DPI)
+                pictures[f"{sigma:g} {name} {key}"] = canvas.take()
     return pictures
 
 
