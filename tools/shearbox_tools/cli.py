@@ -27,6 +27,8 @@ def main(arguments: list[str] | None = None) -> int:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # Latin-1 has no greek letters, and a stranger's path may have any
     options = make_parser().parse_args(arguments)
+    # matrices are so small here that threads only wait for each other, on a busy machine for most of the time
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     signals = [signal.SIGTERM, signal.SIGHUP]
     for sign in signals:
         signal.signal(sign, _interrupt)

@@ -77,7 +77,8 @@ def _colours(values: list[np.ndarray], from_zero: bool) -> Normalize:
 def _draw_cells(axes: Axes, fields: Fields, values: np.ndarray, colours: Normalize, kind: Kind) -> None:
     """Inside the outline of the box."""
     box = axes.add_patch(Polygon(fields.outline, facecolor=UNKNOWN_COLOUR, edgecolor="none"))
-    mesh = axes.pcolormesh(fields.x, fields.y, np.ma.masked_invalid(values), norm=colours, cmap=kind.colormap)
+    own = Normalize(colours.vmin, colours.vmax)  # one for all would call back meshes that are being cleared away
+    mesh = axes.pcolormesh(fields.x, fields.y, np.ma.masked_invalid(values), norm=own, cmap=kind.colormap)
     mesh.set_clip_path(box)
     axes.add_patch(Polygon(fields.outline, fill=False, edgecolor=INK, linewidth=1.5, joinstyle="miter"))
 
