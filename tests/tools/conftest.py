@@ -1,8 +1,20 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Make the package under tools/ importable as `tools/shearbox` does."""
+"""Make the package under tools/ importable as `tools/shearbox` does; reports without pictures."""
 
+import os
 import sys
 from pathlib import Path
 
+import pytest
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as shearbox itself sets it; before anything imports numpy
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+from undrawn import DRAWING  # noqa: E402  it needs the path of the tests
+
+
+@pytest.fixture(name="undrawn")
+def _undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is written about runs, without their pictures."""
+    for name, nothing in DRAWING.items():
+        monkeypatch.setattr(f"shearbox_tools.report.{name}", nothing)

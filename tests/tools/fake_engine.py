@@ -82,8 +82,8 @@ def shear(variables: dict[str, str], log: Path) -> None:
         if asked:
             synthetic.write_restart(Path("shear.restart.c"), step)
             sys.exit(0)
-        if not begin:
-            time.sleep(float(os.environ.get("FAKE_SECONDS", "0")) / ROWS)
+        if not begin and "FAKE_SECONDS" in os.environ:
+            time.sleep(float(os.environ["FAKE_SECONDS"]) / ROWS)
     synthetic.write_restart(Path("sheared.restart"), ROWS * synthetic.STEPS_PER_ROW)
     for path in Path().glob("shear.restart.?"):
         path.unlink()

@@ -11,6 +11,7 @@ import shearbox_tools
 
 ROOT = Path(__file__).resolve().parents[2]
 MODEL = "TypeA_10x5_2-4_3-circle_350"
+SOON_PACKED = "TypeA_10x5_4-8_1-circle_350"
 # No more than a new user has: nothing here may point to the repository.
 ENVIRONMENT = {"PATH": "/usr/bin:/bin", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
@@ -48,7 +49,7 @@ def test_command_through_a_link(prefix: Path, tmp_path: Path) -> None:
 
 def test_a_short_run(prefix: Path, tmp_path: Path) -> None:
     short = ["--accuracy", "fast", "--travel", "0.1", "--stress", "100"]
-    said = start(prefix / "bin" / "shearbox", "run", MODEL, "--out", "results", *short, cwd=tmp_path)
+    said = start(prefix / "bin" / "shearbox", "run", SOON_PACKED, "--out", "results", *short, cwd=tmp_path)
     assert "report.html" in said
     assert (tmp_path / "results" / "report.html").stat().st_size > 100_000
 

@@ -6,7 +6,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from test_run import MODEL, SHEARBOX, command, shearbox
+from test_run import MODEL, SHEARBOX, UNDRAWN, command, shearbox
 
 from shearbox_tools.checks import check
 from shearbox_tools.errors import InputError, ShearboxError
@@ -144,7 +144,7 @@ def test_a_folder_goes_on_as_it_was_asked_for(tmp_path):
         "phi": "30", "kn": "50000000", "ngrains": "250", "shape": "discs 2 0 0 1 1 0 1"
     }  # fmt: skip
     engine = str(SHEARBOX.parents[1] / "tests" / "tools" / "fake_engine.py")
-    words = [str(SHEARBOX), "run", str(folder), "--engine", engine]
+    words = [str(UNDRAWN), "run", str(folder), "--engine", engine]
     more = subprocess.run([*words, "--stress", "200"], capture_output=True, text=True, timeout=120)
     assert more.returncode == 0, more.stderr
     assert "pack: started" not in more.stdout and "shear 200 kPa: done" in more.stdout

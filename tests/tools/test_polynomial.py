@@ -106,9 +106,17 @@ def test_through_the_origin():
     assert fit.error(0.0)[0] == pytest.approx(0, abs=1e-12)
     assert fit.degree <= 3
     assert fit.series(s) == pytest.approx(0.3 * s - 0.02 * s**2, abs=0.01)
-    assert all(abs(replica(0)) < 1e-12 for replica in fit.replicas(20))
+    assert np.polynomial.legendre.legval(-1, fit.replicas(20)) == pytest.approx(np.zeros(20), abs=1e-12)
 
 
 def test_turning_points_are_maxima_only():
     cubic = np.polynomial.Polynomial([0, -3, 0, 1]).convert(kind=np.polynomial.Legendre, domain=[-2, 2])
     assert turning_points(cubic) == pytest.approx([-1])
+
+
+@pytest.mark.parametrize("count", range(1, 6))
+def test_turning_points_of_every_degree(count):
+    zeros = np.linspace(0.7, 5.3, count) ** 1.1  # of the derivative: its sign changes at each, last to the negative
+    rising = -np.polynomial.Polynomial.fromroots(zeros)
+    curve = rising.integ().convert(kind=np.polynomial.Legendre, domain=[0, 8])
+    assert turning_points(curve) == pytest.approx(zeros[::-2][::-1], rel=1e-6)

@@ -55,6 +55,7 @@ def test_frames(test: shearbox.Test) -> None:
         test.frame(100, 999)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_progress_is_told(tmp_path: Path) -> None:
     told: list[tuple[float, str]] = []
     shearbox.run(
@@ -82,6 +83,7 @@ def test_progress_is_told(tmp_path: Path) -> None:
     assert tests[0].phi_deg is None, "one stress has no line"
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_numbers_may_come_in_any_row(tmp_path: Path) -> None:
     """Also in a thread, which cannot listen to signals; and after it who listened before does again."""
     heard = signal.getsignal(signal.SIGUSR1)
@@ -109,6 +111,7 @@ def test_what_is_refused(test: shearbox.Test, tmp_path: Path) -> None:
         shearbox.read(tmp_path)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_failure_is_raised_and_the_rest_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("FAKE_FAIL", "200")
     with pytest.raises(shearbox.Error, match="shear 200 kPa"):

@@ -21,16 +21,19 @@ from shearbox_tools.restarts import step_of
 
 TESTS = Path(__file__).resolve().parent
 SHEARBOX = TESTS.parents[1] / "tools" / "shearbox"
+UNDRAWN = TESTS / "undrawn.py"
 MODEL = "TypeA_10x5_4-8_1-circle_350"
 
 
-def command(folder: Path, *options: str, model: str = MODEL) -> list[str]:
-    return [str(SHEARBOX), "run", model, "--out", str(folder), "--engine", str(TESTS / "fake_engine.py"), *options]
+def command(folder: Path, *options: str, model: str = MODEL, program: Path = UNDRAWN) -> list[str]:
+    return [str(program), "run", model, "--out", str(folder), "--engine", str(TESTS / "fake_engine.py"), *options]
 
 
-def shearbox(folder: Path, *options: str, model: str = MODEL, **environment: str) -> subprocess.CompletedProcess[str]:
+def shearbox(
+    folder: Path, *options: str, model: str = MODEL, program: Path = UNDRAWN, **environment: str
+) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        command(folder, *options, model=model),
+        command(folder, *options, model=model, program=program),
         env={**os.environ, **environment},
         capture_output=True,
         text=True,
@@ -53,7 +56,7 @@ def _folder(tmp_path: Path) -> Path:
 
 def test_all_stresses_from_nothing_to_the_report(folder, tmp_path):
     diary = tmp_path / "diary"
-    done = shearbox(folder, FAKE_DIARY=str(diary), FAKE_SECONDS="1")
+    done = shearbox(folder, program=SHEARBOX, FAKE_DIARY=str(diary), FAKE_SECONDS="1")
     assert done.returncode == 0, done.stderr
     assert "400 kPa: done in" in done.stdout
     assert (folder / "report.html").stat().st_size > 100_000
@@ -231,8 +234,9 @@ def test_an_engine_that_cannot_be_started_is_named(folder, tmp_path):
 
 def test_two_runs_in_one_folder(folder):
     first = subprocess.Popen(
-        command(folder, "--stress", "100"), env={**os.environ, "FAKE_SECONDS": "8"}, stdout=subprocess.DEVNULL
-    )
+        command(folder, "--stress", "100", program=SHEARBOX), env={**os.environ, "FAKE_SECONDS": "8"},
+        stdout=subprocess.DEVNULL,
+    )  # fmt: skip
     wait_for(lambda: (folder / "100" / "shear.dat").exists())
     second = shearbox(folder, "--stress", "100")
     first.send_signal(signal.SIGINT)

@@ -3,6 +3,7 @@
 
 import numpy as np
 import pytest
+from scipy.signal import savgol_filter
 from synthetic import correlated_noise, softening
 
 from shearbox_tools.peak import Peak
@@ -60,3 +61,8 @@ def test_a_rising_curve_has_its_peak_at_the_boundary() -> None:
 def test_few_rows() -> None:
     s = np.arange(6.0)
     assert np.isfinite(find_smoothed_peak(s, np.sin(s / 2)).value)
+
+
+def test_it_is_the_filter_of_savitzky_and_golay() -> None:
+    rows = np.random.default_rng(3).normal(size=(3, 101))
+    assert smooth(rows) == pytest.approx(savgol_filter(rows, 21, 2), abs=1e-12)

@@ -1,11 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What all pictures of specimens have: their size, a strip with a scale bar and the arrow of shear, scales of colours."""
 
+import io
+
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Colormap, Normalize
 from matplotlib.figure import Figure
+from PIL import Image
+
+from .style import data_uri
 
 INK = "#23282e"
 PICTURE_WIDTH = 4.2  # inches
@@ -14,13 +21,38 @@ STRIP_FONT = 12  # points
 SCALE_WIDTH = 3.6  # of the scale of colours, inches
 
 
-def empty_picture(low: np.ndarray, high: np.ndarray) -> tuple[Figure, Axes]:
-    """A picture to scale from the corner low to the corner high, (2,) each, m, as `furnish` has it."""
-    width, height = high - low
-    figure = Figure(figsize=(PICTURE_WIDTH, PICTURE_WIDTH * height / width))
-    axes = figure.add_axes((0, 0, 1, 1))
-    furnish(axes, low, high)
-    return figure, axes
+class Canvas:
+    """For pictures of so many dpi, to scale from the corner low to the corner high, (2,) each, m, as `furnish` has them.
+
+    What all of them have is drawn once, and lies under what is drawn on the axes for a picture. To make axes and to draw
+    their strip costs more than what is drawn on them.
+    """
+
+    def __init__(self, low: np.ndarray, high: np.ndarray, dpi: int) -> None:
+        width, height = high - low
+        self._figure = Figure(figsize=(PICTURE_WIDTH, PICTURE_WIDTH * height / width), dpi=dpi)
+        self.axes = self._figure.add_axes((0, 0, 1, 1))
+        furnish(self.axes, low, high)
+        self._furniture = self.axes.get_children()
+        canvas = FigureCanvasAgg(self._figure)
+        canvas.draw()
+        self._background = canvas.copy_from_bbox(self._figure.bbox)
+
+    def take(self) -> str:
+        """What is drawn, as a WebP picture in a data: URI; the axes are empty then."""
+        # not the canvas of before: it takes a clip path for an earlier one that lay at its address
+        canvas = FigureCanvasAgg(self._figure)
+        canvas.get_renderer()
+        canvas.restore_region(self._background)
+        drawn = [artist for artist in self.axes.get_children() if artist not in self._furniture]
+        for artist in sorted(drawn, key=Artist.get_zorder):
+            self.axes.draw_artist(artist)
+        for artist in drawn:
+            artist.remove()
+        buffer = io.BytesIO()
+        # method 2: half the time of the default, 4, and 1.4 % more bytes
+        Image.fromarray(np.asarray(canvas.buffer_rgba())).save(buffer, "webp", quality=85, method=2)
+        return data_uri(buffer, "webp")
 
 
 def furnish(axes: Axes, low: np.ndarray, high: np.ndarray) -> None:

@@ -32,6 +32,8 @@ def main(arguments: list[str] | None = None) -> int:
 
         argcomplete.autocomplete(parser)
     options = parser.parse_args(arguments)
+    # matrices are so small here that threads only wait for each other, on a busy machine for most of the time
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     signals = [signal.SIGTERM, signal.SIGHUP]
     for sign in signals:
         signal.signal(sign, _interrupt)

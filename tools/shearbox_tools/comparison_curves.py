@@ -29,9 +29,9 @@ def draw_comparison(names: Sequence[str], ensembles: Sequence[Ensemble]) -> dict
                 if sigma in ensemble.curves
             ]
             stress = [(line, line[2].tau, sigma) for line in lines]
-            pictures[f"stress {sigma:g}"] = as_uri(_overlaid(stress, sigma, "τ/σ (–)", ratio), "svg")
+            pictures[f"stress {sigma:g}"] = as_uri(_overlaid(stress, sigma, "τ/σ (–)", ratio))
             rise = [(line, line[2].lid, 1.0) for line in lines]
-            pictures[f"lid {sigma:g}"] = as_uri(_overlaid(rise, sigma, "lid, up + (mm)", lid), "svg")
+            pictures[f"lid {sigma:g}"] = as_uri(_overlaid(rise, sigma, "lid, up + (mm)", lid))
     return pictures
 
 

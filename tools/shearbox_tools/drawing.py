@@ -11,12 +11,12 @@ from matplotlib import colormaps, rc_context
 from matplotlib.axes import Axes
 from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
 from matplotlib.colors import Normalize, to_rgba
-from matplotlib.figure import Figure
 
-from .canvas import STRIP, colour_scale, draw_key, empty_picture, round_down
+from .canvas import STRIP, Canvas, colour_scale, draw_key, round_down
 from .specimen import Film, Moment
 from .style import RC, as_uri
 
+DPI = 200
 WALL_COLOUR = "#c9ced4"
 OUTLINE_COLOUR = "#4a525a"
 FORCE_COLOUR = "#7a1022"
@@ -56,14 +56,15 @@ def draw_specimens(specimens: dict[float, Stills]) -> dict[str, str]:
     turned = Normalize(-(limit := _largest_rotation(specimens)), limit)
     per_stress = max(_largest_force(stills) / sigma for sigma, stills in specimens.items())
     with rc_context(RC):
-        pictures = {"rotation scale": as_uri(colour_scale(turned, ROTATIONS, ROTATION_TITLE), "svg")}
+        pictures = {"rotation scale": as_uri(colour_scale(turned, ROTATIONS, ROTATION_TITLE))}
         for sigma, stills in specimens.items():
+            canvas = Canvas(*extent(list(stills.moments.values())), DPI)
             for name, moment in stills.moments.items():
-                for kind, picture in (
-                    ("rotation", _rotation(stills, moment, turned)),
-                    ("forces", _forces(stills, moment, sigma * per_stress)),
-                ):
-                    pictures[f"{sigma:g} {name} {kind}"] = as_uri(picture, "webp")
+                rotation = np.degrees(moment.rotation_since(stills.before))
+                draw_discs(canvas.axes, moment, ROTATIONS(turned(rotation)))
+                pictures[f"{sigma:g} {name} rotation"] = canvas.take()
+                draw_chains(canvas.axes, moment, sigma * per_stress)
+                pictures[f"{sigma:g} {name} forces"] = canvas.take()
     return pictures
 
 
@@ -75,19 +76,6 @@ def _largest_rotation(specimens: dict[float, Stills]) -> float:
 
 def _largest_force(stills: Stills) -> float:
     return max(float(np.max(moment.contacts["fn"], initial=1e-9)) for moment in stills.moments.values())
-
-
-def _rotation(stills: Stills, moment: Moment, turned: Normalize) -> Figure:
-    figure, axes = empty_picture(*extent(list(stills.moments.values())))
-    rotation = np.degrees(moment.rotation_since(stills.before))
-    draw_discs(axes, moment, ROTATIONS(turned(rotation)))
-    return figure
-
-
-def _forces(stills: Stills, moment: Moment, widest: float) -> Figure:
-    figure, axes = empty_picture(*extent(list(stills.moments.values())))
-    draw_chains(axes, moment, widest)
-    return figure
 
 
 def draw_chains(axes: Axes, moment: Moment, widest: float) -> None:

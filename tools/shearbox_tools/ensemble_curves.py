@@ -27,13 +27,13 @@ def draw_ensembles(ensembles: Sequence[Ensemble]) -> list[dict[str, str]]:
     drawn = []
     with rc_context(RC):
         for ensemble in ensembles:
-            pictures = {"strength": as_uri(_strength(ensemble), "svg")}
+            pictures = {"strength": as_uri(_strength(ensemble))}
             look = looks(list(ensemble.curves))
             for sigma, curve in ensemble.curves.items():
                 stress = _curve(curve, curve.tau, sigma, "τ/σ (–)", look[sigma], ratio)
-                pictures[f"stress {sigma:g}"] = as_uri(stress, "svg")
+                pictures[f"stress {sigma:g}"] = as_uri(stress)
                 rise = _curve(curve, curve.lid, 1.0, "lid, up (mm)", look[sigma], lid)
-                pictures[f"lid {sigma:g}"] = as_uri(rise, "svg")
+                pictures[f"lid {sigma:g}"] = as_uri(rise)
             drawn.append(pictures)
     return drawn
 

@@ -9,10 +9,9 @@ from matplotlib import colormaps, rc_context
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.colors import Colormap, Normalize
-from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
-from .canvas import INK, STRIP, colour_scale, draw_key, empty_picture, round_down
+from .canvas import INK, STRIP, Canvas, colour_scale, draw_key, round_down
 from .fields import Fields
 from .style import RC, as_uri
 
@@ -51,15 +50,17 @@ def draw_maps(specimens: dict[float, dict[str, Fields]]) -> dict[str, str]:
     largest = max(float(np.nanquantile(f.mean_stress + f.deviator, RANGE[1])) / sigma for sigma, _, f in every)
     pictures = {}
     with rc_context(RC):
+        canvases = {sigma: Canvas(*_extent(list(by_name.values())), DPI) for sigma, by_name in specimens.items()}
         for key, kind in KINDS.items():
             colours = _colours([_values(key, fields, sigma) for sigma, _, fields in every], kind.from_zero)
             extend = "max" if kind.from_zero else "both"
-            pictures[f"{key} scale"] = as_uri(colour_scale(colours, kind.colormap, kind.title, extend), "svg")
+            pictures[f"{key} scale"] = as_uri(colour_scale(colours, kind.colormap, kind.title, extend))
             for sigma, name, fields in every:
-                figure, axes = _map(fields, list(specimens[sigma].values()), _values(key, fields, sigma), colours, kind)
+                canvas = canvases[sigma]
+                _draw_cells(canvas.axes, fields, _values(key, fields, sigma), colours, kind)
                 if key == "stress":
-                    _draw_crosses(axes, fields, largest * sigma)
-                pictures[f"{sigma:g} {name} {key}"] = as_uri(figure, "webp", DPI)
+                    _draw_crosses(canvas.axes, fields, largest * sigma)
+                pictures[f"{sigma:g} {name} {key}"] = canvas.take()
     return pictures
 
 
@@ -73,16 +74,13 @@ def _colours(values: list[np.ndarray], from_zero: bool) -> Normalize:
     return Normalize(low, max(float(highs.max()), low + 1e-3))
 
 
-def _map(
-    fields: Fields, moments: list[Fields], values: np.ndarray, colours: Normalize, kind: Kind
-) -> tuple[Figure, Axes]:
-    """The cells, inside the outline of the box."""
-    figure, axes = empty_picture(*_extent(moments))
+def _draw_cells(axes: Axes, fields: Fields, values: np.ndarray, colours: Normalize, kind: Kind) -> None:
+    """Inside the outline of the box."""
     box = axes.add_patch(Polygon(fields.outline, facecolor=UNKNOWN_COLOUR, edgecolor="none"))
-    mesh = axes.pcolormesh(fields.x, fields.y, np.ma.masked_invalid(values), norm=colours, cmap=kind.colormap)
+    own = Normalize(colours.vmin, colours.vmax)  # one for all would call back meshes that are being cleared away
+    mesh = axes.pcolormesh(fields.x, fields.y, np.ma.masked_invalid(values), norm=own, cmap=kind.colormap)
     mesh.set_clip_path(box)
     axes.add_patch(Polygon(fields.outline, fill=False, edgecolor=INK, linewidth=1.5, joinstyle="miter"))
-    return figure, axes
 
 
 def _extent(moments: list[Fields]) -> tuple[np.ndarray, np.ndarray]:

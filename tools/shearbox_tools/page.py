@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """HTML pages, each a single file that opens without a network."""
 
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +17,9 @@ def render(template: str, **values: Any) -> str:
     return environment(TEMPLATES).get_template(template).render(**values)
 
 
+@cache
 def environment(*folders: Path) -> Environment:
-    """Of templates in the folders, with the filters of all pages."""
+    """Of templates in the folders, with the filters of all pages; it keeps what it has compiled."""
     made = Environment(
         loader=FileSystemLoader(folders),
         autoescape=True,

@@ -4,11 +4,13 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.polynomial import Legendre
+from numpy.polynomial import Legendre, legendre
+from numpy.polynomial.polyutils import mapdomain
 
 from .polynomial import Fit, end_zone
 
 REPLICAS = 400
+IMAGINARY = 2e-9  # of a zero on [-1, 1] that is real but for round-off, at most
 
 
 @dataclass(frozen=True)
@@ -33,33 +35,61 @@ def find_peak(fit: Fit) -> Peak:
     the noise, the choice of the degree, and the bias of taking the maximum of a noisy curve.
     """
     margin = 2 * float(fit.error(fit.span)[0])
-    position, at_boundary = _locate(fit.series, fit.span, margin)
-    value = float(fit.series(position))
-    replicas = fit.replicas(REPLICAS)
-    positions = np.array([_locate(r, fit.span, margin)[0] for r in replicas])
-    values = np.array([r(p) for r, p in zip(replicas, positions)])
-    return Peak(value, _rms(values - value), position, _rms(positions - position), at_boundary)
+    (position,), (value,), (at_boundary,) = _locate(fit.series.coef[:, None], fit.span, margin)
+    positions, values, _ = _locate(fit.replicas(REPLICAS), fit.span, margin)
+    errors = _rms(values - value), _rms(positions - position)
+    return Peak(float(value), errors[0], float(position), errors[1], bool(at_boundary))
 
 
-def _locate(series: Legendre, span: float, margin: float) -> tuple[float, bool]:
-    """Position of the peak of one polynomial on [0, span], and whether it is the end."""
-    zone = end_zone(span)
-    interior = [p for p in turning_points(series) if zone < p < span - zone]
-    if not interior:
-        ends = (zone, span)
-        return max(ends, key=series), True
-    highest = max(interior, key=series)
-    if series(span) > series(highest) + margin:
-        return span, True
-    return highest, False
+def _locate(curves: np.ndarray, span: float, margin: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Positions of the peaks of polynomials on [0, span], their heights, and whether they are at an end.
+
+    curves: (n, c) Legendre coefficients of c polynomials.
+    """
+    inner = 1 - end_zone(2)
+    tops = _maxima(curves)
+    heights = np.where(np.abs(tops) < inner, legendre.legval(tops, curves, tensor=False), -np.inf)
+    highest = heights.argmax(axis=0)[None]
+    top, height = (np.take_along_axis(of, highest, axis=0)[0] for of in (tops, heights))
+    first, last = legendre.legval(np.array([-inner, 1]), curves).T
+    none = np.isneginf(height)
+    at_boundary = none | (last > height + margin)
+    rises = ~none | (last > first)
+    places = np.where(at_boundary, np.where(rises, 1, -inner), top)
+    values = np.where(at_boundary, np.where(rises, last, first), height)
+    return span * (places + 1) / 2, values, at_boundary
 
 
 def turning_points(series: Legendre) -> list[float]:
-    """Positions of the local maxima: real zeros of the derivative where the second derivative is negative."""
-    slope = series.deriv()
-    roots = np.atleast_1d(slope.roots())
-    real = roots[np.abs(roots.imag) < 1e-9 * np.ptp(series.domain)].real
-    return [float(p) for p in real if slope.deriv()(p) < 0]
+    """Positions of the local maxima, ascending."""
+    tops = _maxima(series.coef[:, None])
+    return np.sort(mapdomain(tops[np.isfinite(tops)], series.window, series.domain)).tolist()
+
+
+def _maxima(curves: np.ndarray) -> np.ndarray:
+    """(n, c) where Legendre series, (n, c), have their local maxima, NaN for the rest: real zeros of the derivative
+    where the second derivative is negative."""
+    slopes = legendre.legder(curves)
+    bends = legendre.legder(slopes)
+    degrees = np.max(np.arange(len(slopes))[:, None] * (slopes != 0), axis=0)
+    tops = np.full(curves.shape, np.nan)
+    for degree in set(degrees) - {0}:
+        alike = degrees == degree
+        zeros = np.linalg.eigvals(_companions(slopes[: degree + 1, alike])).T
+        down = legendre.legval(zeros.real, bends[:, alike], tensor=False) < 0
+        tops[:degree, alike] = np.where(down & (np.abs(zeros.imag) < IMAGINARY), zeros.real, np.nan)
+    return tops
+
+
+def _companions(series: np.ndarray) -> np.ndarray:
+    """(c, degree, degree) matrices whose eigenvalues are the zeros of Legendre series, (degree + 1, c): that of the last
+    function alone, and what the others change in its last column, as in numpy's legcompanion."""
+    degree = len(series) - 1
+    matrices = np.tile(legendre.legcompanion(np.eye(degree + 1)[-1]), (series.shape[1], 1, 1))
+    scale = 1 / np.sqrt(2 * np.arange(degree) + 1)
+    others = series[:-1] / series[-1] * scale[:, None] / scale[-1]
+    matrices[:, :, -1] -= others.T * degree / (2 * degree - 1)
+    return matrices[:, ::-1, ::-1]  # reversed, eigenvalues are more accurate
 
 
 def _rms(values: np.ndarray) -> float:

@@ -62,13 +62,13 @@ class Fit:
         vander = _vander(np.atleast_1d(x), self.span) @ self.basis[:, : len(self.coefficients)]
         return np.sqrt(np.einsum("ij,jk,ik->i", vander, self.covariance, vander))
 
-    def replicas(self, count: int, seed: int = 1) -> list[Legendre]:
-        """Polynomials fitted to resampled residuals, each with its own degree (see the rule above)."""
+    def replicas(self, count: int, seed: int = 1) -> np.ndarray:
+        """(highest degree + 1, count) Legendre coefficients over [0, span] of polynomials fitted to resampled residuals,
+        each with its own degree (see the rule above)."""
         rng = np.random.default_rng(seed)
         residuals = (self.y - self.fitted) * np.sqrt(len(self.y) / self._freedom)
         noise = rng.choice(residuals, size=(len(self.y), count))
-        chosen = _best_coefficients(self.design, self.fitted[:, None] + noise)
-        return [_legendre(self.basis, c, self.span) for c in chosen.T]
+        return self.basis @ _best_coefficients(self.design, self.fitted[:, None] + noise)
 
     @property
     def _freedom(self) -> int:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Reading the tables that the decks write; a damaged file is named together with the line that is wrong."""
 
+import math
 import os
 from collections.abc import Sequence
 from pathlib import Path
@@ -138,7 +139,7 @@ def parse_numbers(line: str, count: int, path: Path, at: int) -> list[float]:
         values = [float(word) for word in words]
     except ValueError as error:
         raise ShearboxError(f"{path}, line {at}: not a number in {short(line)}") from error
-    if not np.all(np.isfinite(values)):
+    if not all(map(math.isfinite, values)):
         raise ShearboxError(f"{path}, line {at}: a value that is not finite in {short(line)}")
     if not all(map(is_numeral, words)):
         raise ShearboxError(f"{path}, line {at}: not a number in {short(line)}")

@@ -3,7 +3,7 @@
 
 import signal
 from collections.abc import Callable, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from concurrent import futures
 from os import sched_getaffinity
 from pathlib import Path
 
@@ -16,7 +16,7 @@ def read_all(folders: Sequence[Path], read_one: Callable[[Path], Results | str])
     """What read_one, a function of a module, makes of each run; or why it cannot be read."""
     read: list[Results] = []
     unread: list[LeftOut] = []
-    with ProcessPoolExecutor(len(sched_getaffinity(0)), initializer=_end_at_once) as pool:
+    with futures.ProcessPoolExecutor(len(sched_getaffinity(0)), initializer=_end_at_once) as pool:
         results = [pool.submit(read_one, folder) for folder in folders]
         try:
             for folder, result in zip(folders, (future.result() for future in results)):

@@ -65,7 +65,7 @@ def _diagrams(results: Results) -> dict[str, str]:
             "stress dilatancy": states.stress_dilatancy(results),
             **{f"column {name}": figure for name, figure in curves.other_columns(results).items()},
         }
-        return {name: as_uri(figure, "svg") for name, figure in figures.items()}
+        return {name: as_uri(figure) for name, figure in figures.items()}
 
 
 def _specimens(results: Results) -> dict[float, Stills]:

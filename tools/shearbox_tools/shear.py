@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.stats import linregress
 
 from .features import dilates, peak_at_steepest
 from .peak import Peak, find_peak
@@ -124,7 +123,8 @@ class Shear:
         """Those of the last fifth; the dilatancy is the slope of a line through the lid's heights."""
         s, lid = (self.data[name][self.rows] for name in ("displacement_mm", "lid_mm"))
         last = ultimate_rows(len(s))
-        return Dilatant(self.ultimate[0] / self.sigma, float(linregress(s[last], lid[last]).slope))
+        slope = np.polyfit(s[last], lid[last], 1)[0]
+        return Dilatant(self.ultimate[0] / self.sigma, float(slope))
 
     @property
     def felt_error(self) -> float:

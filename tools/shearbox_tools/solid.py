@@ -5,7 +5,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import RegularGridInterpolator
 
 from .grains import area_over_largest
 
@@ -47,10 +46,10 @@ class Grading:
 
 def solid_fraction(shape: str, grading: Grading, width: float, height: float, friction: float) -> float:
     """Of a box of that width and height (m), packed with that friction angle (degrees); greater ones make little difference."""
-    far = RegularGridInterpolator((FRICTIONS, RATIOS), FAR_FROM_WALLS[shape])
+    at_friction = [np.interp(grading.dmax / grading.dmin, RATIOS, row) for row in FAR_FROM_WALLS[shape]]
     size = SIZES[shape] * np.mean(grading.diameters(1000))
     walls = 1 - 2 * LAYER[shape] * size * (1 / width + 1 / height)
-    return float(walls * far((min(friction, FRICTIONS[-1]), grading.dmax / grading.dmin)))
+    return float(walls * np.interp(friction, FRICTIONS, at_friction))
 
 
 def filling(shape: str, grading: Grading, width: float, height: float, friction: float) -> int:
