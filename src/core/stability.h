@@ -15,7 +15,8 @@
 // faster.
 //
 // The dashpots take the velocity of the half step, carried forward by a share w of half a step. A mode with stiffness
-// k, damping c and mass m is stable while k dt^2 + 2 (1 + w) c dt < 4 m.
+// k, damping c and mass m is stable while k dt^2 + 2 (1 + w) c dt < 4 m. Local damping raises the force that resists a
+// motion by its A-fold, which is as if the mass were m/(1 + A).
 #pragma once
 
 #include "declaration.h"
@@ -53,7 +54,8 @@ struct AmongItsLike {
   const GrainShape &shape;
   double mass, radius, inertia;
   Material material;
-  Resistance added; // by the law's additions, for one contact
+  Resistance added;   // by the law's additions, for one contact
+  double damping = 0; // local damping
 };
 
 // Three modes: grains move against each other; all turn the same way; neighbours turn in opposite directions, which
@@ -77,7 +79,8 @@ inline std::array<Mode, 3> stiffest_modes(const AmongItsLike &grain) {
     return Mode{sum(m.kn + grain.added.normal.stiffness, m.ks + grain.added.tangent.stiffness),
                 dashpot_scale * sum(m.dn, m.ds) + sum(grain.added.normal.dashpot, grain.added.tangent.dashpot), mass};
   };
-  const Mode sideways = mode(moving, grain.mass), turns = mode(turning, grain.mass * grain.inertia);
+  const double mass = grain.mass / (1 + grain.damping);
+  const Mode sideways = mode(moving, mass), turns = mode(turning, mass * grain.inertia);
   const double per_contact = 2 * shape.neighbours() / (grain.radius * grain.radius);
   const double share = is_disc ? 0.25 : 1;
   const Resistance::Part &against = grain.added.turning;

@@ -87,3 +87,46 @@ def test_what_it_takes_out_is_booked(tmp_path: Path, law: str, ranks: int) -> No
 def test_refused(tmp_path: Path, damping: str) -> None:
     with pytest.raises(EngineError, match=f"damping {damping}: must be from 0 to less than 1"):
         run(PLAIN, tmp_path, discs=[Disc(0, 0)], gx=0, gy=0, damping=damping, dt=1e-6, steps=1)
+
+
+LIMIT = """
+include ${decks}/start.in
+fix      move grains cdem/integrate dt any gravity 0 -${g} damping ${damping} rescue none
+timestep ${dt}
+compute  limit all cdem/limit
+thermo_style custom step f_move c_limit
+thermo   ${steps}
+thermo_modify format float %.17g
+run      ${steps}
+include  ${decks}/end.in
+"""
+
+
+@pytest.mark.parametrize("share", [0.97, 1.03])
+def test_the_stability_limit(tmp_path: Path, law: str, share: float) -> None:
+    """Of a grain on a spring: the force that resists is 1 + A times that of the spring, so that leapfrog is stable up to
+    2 sqrt(m/(kn (1 + A))). Below, the grain comes to rest; above, it leaves the wall or blows up. Both limits that are told know
+    it: that of the contact is never more, that of the worst packing lower by the same factor."""
+    grain, a = Disc(0, 0), 0.7
+    kn, amplitude = 1e8, 1e-7
+    exact = 2 * math.sqrt(grain.mass / kn / (1 + a))
+    discs = [grain, Disc(0, -4e-3 + 5 * amplitude, type=2)]
+    options: dict[str, Any] = {
+        "discs": discs,
+        "law": law,
+        "hn": 0,
+        "hs": 0,
+        "ks": 0,
+        "g": 4 * amplitude * kn / grain.mass,
+    }
+    told = run(LIMIT, tmp_path / "told", **options, damping=a, dt=1e-8, steps=0).thermo
+    bare = run(LIMIT, tmp_path / "bare", **options, damping=0, dt=1e-8, steps=0).thermo
+    assert 0.87 * exact < told["c_limit"][0] <= exact * (1 + 1e-9)
+    assert told["f_move"][0] == pytest.approx(bare["f_move"][0] / math.sqrt(1 + a), rel=1e-12)
+    try:
+        out = run(LIMIT, tmp_path, **options, damping=a, dt=share * exact, steps=2000)
+        calm = abs(out.end["vy"][0]) < 1e-3 * amplitude / exact
+    except EngineError as error:
+        assert "blow" in str(error) or "moved" in str(error)
+        calm = False
+    assert calm == (share < 1)

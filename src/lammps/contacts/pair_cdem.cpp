@@ -277,7 +277,7 @@ cdem::AmongItsLike PairCDEM::among_its_like(int i, int other_type) const {
     disc = std::max(disc, d.r * r);
   const cdem::TwoGrains::Grain grain{m, inertia * m * r * r, disc};
   const cdem::Coefficients &c = law.coefficients[type][other_type];
-  return {shape, m, r, inertia, c.material, contacts.law.added_resistance(c, {grain, grain})};
+  return {shape, m, r, inertia, c.material, contacts.law.added_resistance(c, {grain, grain}), grains->damping};
 }
 
 void PairCDEM::write_restart(FILE *fp) { law.write(fp, setflag); }

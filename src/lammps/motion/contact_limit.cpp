@@ -24,7 +24,11 @@ struct Packing {
 
   int own() const { return nlocal; }
 
-  FixCDEMGrains::Inverse inverse(int i) const { return grains.inverse(i); }
+  // As if the mass were less, see core/stability.h.
+  FixCDEMGrains::Inverse inverse(int i) const {
+    const FixCDEMGrains::Inverse of = grains.inverse(i);
+    return {(1 + grains.damping) * of.mass, (1 + grains.damping) * of.inertia};
+  }
 
   template <class Visit> void for_each_touch(int i, Visit visit) const {
     const GrainRows &rows = contacts.rows;
