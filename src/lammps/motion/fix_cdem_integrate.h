@@ -24,7 +24,8 @@
 //                contacts, gravity and drag, and the torque, is lowered by its A-fold, 0 <= A < 1, while it drives the
 //                motion (has the sign of the velocity of the half step), and raised by it while it resists. Not a
 //                force of nature: for states of equilibrium, in which it vanishes, not for grains that fall or flow
-//                (default 0). Stability limits are lower with it, by 1/sqrt(1 + A) or more: dt auto takes a smaller step
+//                (default 0). Stability limits are lower with it, by 1/sqrt(1 + A) or more: dt auto takes a smaller
+//                step
 //   inertia      factor on the moment of inertia of all grains, F > 0 (default: 1), to study how rolling depends on it
 //   rescue       restart file to write when the run fails (default: rescue.restart in the current folder; none beyond
 //                100000 atoms per rank, since the copies from which it is written take about 630 bytes per atom)
