@@ -30,7 +30,7 @@ A = 0.3
 def test_up_and_down(tmp_path: Path, ranks: int, style: str) -> None:
     """Thrown up, a grain is stopped by g (1 + A); it falls with g (1 - A). In the step that turns it the velocity is off by
     2 A g dt at most."""
-    g, v, dt, steps = 10.0, 0.1, 1e-6, 20000
+    g, v, dt, steps = 10.0, 0.1, 1e-5, 2000
     turn = v / (g * (1 + A))
     out = run(
         PLAIN, tmp_path, discs=[Disc(0, 0, vy=v)], ranks=ranks, style=style, gx=0, gy=-g, damping=A, dt=dt, steps=steps
@@ -58,28 +58,18 @@ def test_a_grain_on_a_spring(tmp_path: Path, law: str, ranks: int, style: str) -
     assert out.end["y"][0] - amplitude == pytest.approx(-left, rel=2e-3)
 
 
-def test_what_it_takes_out_is_booked(tmp_path: Path, law: str, ranks: int) -> None:
+def test_what_it_takes_out_is_booked(tmp_path: Path) -> None:
     """Discs collide without friction or dashpots: the energy they lose has gone into damping, to round-off and what the
     contacts' own steps leave over; the same grains with the same damping end alike without an audit."""
     discs = cloud(4, 0.5)
-    options: dict[str, Any] = {
-        "discs": discs,
-        "law": law,
-        "ranks": ranks,
-        "hn": 0,
-        "hs": 0,
-        "phi": 0,
-        "gx": 0,
-        "gy": 0,
-        "damping": A,
-    }
-    out = run(DECK, tmp_path, **options, dt=5e-8, steps=40000)
+    options: dict[str, Any] = {"discs": discs, "hn": 0, "hs": 0, "phi": 0, "gx": 0, "gy": 0, "damping": A}
+    out = run(DECK, tmp_path, **options, dt=1e-7, steps=20000)
     names = "translation rotation springs tangential friction dashpots drag walls gravity residual".split()
     got = dict(zip(names, map(float, (tmp_path / "books.dat").read_text().split("\n")[-2].split()[1:]), strict=True))
     before = sum(d.mass * (d.vx**2 + d.vy**2) / 2 + d.inertia * d.omega**2 / 2 for d in discs)
     after = got["translation"] + got["rotation"] + got["springs"]
     assert got["drag"] == pytest.approx(before - after, rel=1e-3) and got["drag"] > 0.05 * before
-    bare = run(PLAIN, tmp_path / "bare", **options, dt=5e-8, steps=40000)
+    bare = run(PLAIN, tmp_path / "bare", **options, dt=1e-7, steps=20000)
     assert same_bits(bare.end, out.end)
 
 
