@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from gallery import discs, draw, folder_of, run, table  # noqa: E402
+from gallery import discs, draw, folder_of, run, save, table  # noqa: E402
 
 STRESSES = {100: ("blue", "-"), 200: ("red", "--"), 300: ("green", "-.")}  # kPa
 
@@ -37,4 +37,4 @@ if __name__ == "__main__":
     draw(picture, discs(folder / "100" / "discs.dump"), straight=(2, 3))
     picture.set(title="100 kPa, at the end")
     picture.autoscale_view()
-    figure.savefig(HERE / "biaxial.png", dpi=130)
+    save(figure, HERE / "biaxial.png")

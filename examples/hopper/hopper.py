@@ -11,7 +11,7 @@ from scipy.optimize import curve_fit
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from gallery import discs, draw, folder_of, run, table  # noqa: E402
+from gallery import discs, draw, folder_of, run, save, table  # noqa: E402
 
 OPENINGS = (0.02, 0.025, 0.03, 0.035)  # m
 GRAIN = 0.0035  # m, mean diameter
@@ -59,4 +59,4 @@ if __name__ == "__main__":
     diagram.set(xlabel="opening D (mm)", ylabel="area of grains a second (cm²/s)", xlim=(0, 40), ylim=(0, None))
     diagram.grid(alpha=0.3)
     diagram.legend()
-    figure.savefig(HERE / "hopper.png", dpi=130)
+    save(figure, HERE / "hopper.png")

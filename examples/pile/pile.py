@@ -13,7 +13,7 @@ from scipy.spatial import cKDTree
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from gallery import Columns, discs, draw, folder_of, run  # noqa: E402
+from gallery import Columns, discs, draw, folder_of, run, save  # noqa: E402
 
 ASPECTS = (0.5, 1.0, 1.5)
 SMALL, LARGE = 0.04, 0.06  # m, half of the width of the column
@@ -59,4 +59,4 @@ if __name__ == "__main__":
         axes.set(xlim=(-24, 24), ylim=(-0.5, 9.5), title=f"a = {a:.2f}: the pile of a column {200 * LARGE:g} cm wide")
         axes.plot(100 * LARGE * np.array([-1, -1, 1, 1]), 100 * LARGE * np.array([0, a, a, 0]), "k--", lw=1)
         axes.label_outer()
-    figure.savefig(HERE / "pile.png", dpi=130)
+    save(figure, HERE / "pile.png")

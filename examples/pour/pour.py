@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from gallery import discs, draw, folder_of, run  # noqa: E402
+from gallery import discs, draw, folder_of, run, save  # noqa: E402
 
 if __name__ == "__main__":
     folder = folder_of(__file__, __doc__)
@@ -18,4 +18,4 @@ if __name__ == "__main__":
     axes = figure.subplots()
     draw(axes, discs(folder / "discs.dump"), straight=(2, 3))
     axes.set(xlim=(-0.6, 10.6), ylim=(-0.6, 7), title="400 grains of three discs, at rest")
-    figure.savefig(HERE / "pour.png", dpi=130)
+    save(figure, HERE / "pour.png")

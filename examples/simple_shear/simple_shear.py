@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from gallery import Columns, discs, draw, folder_of, run, table  # noqa: E402
+from gallery import Columns, discs, draw, folder_of, run, save, table  # noqa: E402
 
 CASES = {  # boundary, friction angle of packing: label, colour, line
     ("stress", 0): ("dense, drained", "blue", "-"),
@@ -51,4 +51,4 @@ if __name__ == "__main__":
     curves.set(xlabel="shear strain", ylabel="τ/σ on the lid", ylim=(0, 0.7))
     curves.legend(fontsize=7)
     path.set(xlabel="σ on the lid (kPa)", ylabel="τ (kPa)")
-    figure.savefig(HERE / "simple_shear.png", dpi=130)
+    save(figure, HERE / "simple_shear.png")
