@@ -12,7 +12,7 @@ come from smoothing twice as widely, since the narrower smoothing takes part of 
 """
 
 import numpy as np
-from scipy.ndimage import correlate1d
+from scipy.signal import savgol_filter
 
 from .peak import Peak
 from .polynomial import LENGTHS_PER_BLOCK, correlation_length, end_zone
@@ -44,16 +44,8 @@ def find_smoothed_peak(x: np.ndarray, y: np.ndarray, seed: int = 1) -> Peak:
 
 
 def _savgol(y: np.ndarray, width: int) -> np.ndarray:
-    """Near an end, the parabola is that of the last whole window."""
     odd = max(ORDER + 1, width) | 1
-    window = min(odd, (y.shape[-1] - 1) | 1)
-    half = window // 2
-    basis = np.vander(np.arange(-half, half + 1) / half, ORDER + 1)
-    fit = basis @ np.linalg.pinv(basis)  # (window, window) from rows to the parabola through them
-    smoothed = correlate1d(y, fit[half])
-    smoothed[..., :half] = y[..., :window] @ fit[:half].T
-    smoothed[..., -half:] = y[..., -window:] @ fit[-half:].T
-    return smoothed
+    return savgol_filter(y, min(odd, (y.shape[-1] - 1) | 1), ORDER)
 
 
 def _resampled(residuals: np.ndarray, rng: np.random.Generator) -> np.ndarray:
