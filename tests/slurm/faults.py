@@ -82,7 +82,7 @@ def controller(bench: Bench) -> None:
     """The controller of Slurm is killed, and started again when the tests have ended"""
     job = bench.submit(1)
     bench.wait_for_travel(1)
-    bench.cluster.stop_controller()
+    bench.cluster.stop_controller(job)
     bench.say("slurmctld is killed")
     said = bench.shearbox("status", str(bench.out))
     assert "the batch system does not answer" in said and "seed_1: ?" in said and "100 kPa at" in said
@@ -101,5 +101,5 @@ FAULTS: dict[Callable[[Bench], None], int] = {
     drained: 6,
     down: 40,
     cancelled: 40,
-    controller: 12,
+    controller: 25,
 }
