@@ -133,15 +133,25 @@ def test_faults_are_found(tmp_path: Path) -> None:
 
 
 class Body(HTMLParser):
-    """What is written in the body of a page."""
+    """What is written in the body of a page that is for paper, too: not in sections of class screen."""
 
     def __init__(self, page: str) -> None:
         super().__init__()
         self.text = ""
+        self._inside: list[bool] = []  # of the open sections: whether they are for screens alone
         self.feed(page.split("<body>")[1])
 
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        if tag == "section":
+            self._inside.append(("class", "screen") in attrs)
+
+    def handle_endtag(self, tag: str) -> None:
+        if tag == "section":
+            self._inside.pop()
+
     def handle_data(self, data: str) -> None:
-        self.text += data
+        if not any(self._inside):
+            self.text += data
 
 
 def letters(text: str) -> Counter[str]:

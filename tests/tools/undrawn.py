@@ -17,7 +17,9 @@ class Undrawn(dict[str, str]):
         return ""
 
 
-DRAWING = {name: lambda *_: Undrawn() for name in ("_diagrams", "draw_specimens", "draw_maps")}  # of the module report
+DRAWING = {
+    name: lambda *_: Undrawn() for name in ("_diagrams", "draw_specimens", "draw_maps", "film_of")
+}  # of the module report
 
 
 def report_on(*words: Any, **options: Any) -> Path:

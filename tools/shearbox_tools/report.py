@@ -17,6 +17,7 @@ from .maps import draw_maps
 from .models import PARAMETERS, read_comments
 from .numerals import number
 from .page import render
+from .player import film_of
 from .results import Results, read_results
 from .shear import Shear
 from .specimen import Film, missing_frames
@@ -41,12 +42,13 @@ def write_report(results: Results) -> Path:
     if not results.shears:
         raise ShearboxError(f"{folder}: nothing to report on yet\n" + "\n".join([*results.problems, *results.notes]))
     specimens = _specimens(results)
+    film = _film(results, specimens)
     summary = summarise(results)
     for shear in results.shears:
         write_text(shear.folder / CURVE, _curve(shear))
     write_json(folder / SUMMARY, summary)
     page = folder / PAGE
-    write_text(page, _page(results, summary, specimens))
+    write_text(page, _page(results, summary, specimens, film))
     if results.problems:
         raise ShearboxError(f"{page} is written, but not all files can be read:\n" + "\n".join(results.problems))
     return page
@@ -85,9 +87,8 @@ def _specimens(results: Results) -> dict[float, Stills]:
 
 def _fields(results: Results, specimens: dict[float, Stills]) -> dict[float, dict[str, Fields]]:
     """By stress (kPa) and name of the moment, where the frames of the cells are there and the thickness is recorded."""
-    try:
-        thickness = number(results.identity["parameters"]["thickness"])
-    except (KeyError, ValueError):
+    thickness = _thickness(results)
+    if thickness is None:
         return {}
     box = Box(results.identity["model half_height"], thickness)
     return {
@@ -95,6 +96,27 @@ def _fields(results: Results, specimens: dict[float, Stills]) -> dict[float, dic
         for sigma, stills in specimens.items()
         if stills.before.cells is not None
     }
+
+
+def _film(results: Results, specimens: dict[float, Stills]) -> dict[str, Any]:
+    """For the player, where the frames can be read and the thickness is recorded; else a note says why there is none."""
+    thickness = _thickness(results)
+    shears = [shear for shear in results.shears if shear.sigma in specimens]
+    if not shears or thickness is None:
+        return {}
+    try:
+        return film_of(shears, thickness)
+    except ShearboxError as error:
+        results.notes.append(f"no player: {error}")
+        return {}
+
+
+def _thickness(results: Results) -> float | None:
+    """Of the grains, m; None if it is not recorded."""
+    try:
+        return number(results.identity["parameters"]["thickness"])
+    except (KeyError, ValueError):
+        return None
 
 
 def _curve(shear: Shear) -> str:
@@ -115,12 +137,12 @@ def _curve(shear: Shear) -> str:
     return text.getvalue()
 
 
-def _page(results: Results, summary: dict[str, Any], specimens: dict[float, Stills]) -> str:
+def _page(results: Results, summary: dict[str, Any], specimens: dict[float, Stills], film: dict[str, Any]) -> str:
     """Its size in MB is told on itself."""
     fields = _fields(results, specimens)
     values = dict(
         summary=summary, line=results.line, plane_line=results.plane_line, knows_plane=results.knows_plane, diagrams=_diagrams(results),
-        pictures=draw_specimens(specimens), specimens=specimens, maps=draw_maps(fields), mapped=list(fields), column_titles=curves.OTHERS, logs=phase_logs(results),
+        pictures=draw_specimens(specimens), specimens=specimens, film=film, maps=draw_maps(fields), mapped=list(fields), column_titles=curves.OTHERS, logs=phase_logs(results),
         consolidations=[(f"{sigma:g}", bed) for sigma, bed in results.consolidations.items()], known_scatter=KNOWN_SCATTER, comments=_comments(results.model_file),
     )  # fmt: skip
     size = len(render(PAGE_TEMPLATE, **values, size_MB=0))

@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The player of a report: frames of the shear phases, packed so that a page can hold them, for templates/player.js.
+
+Grains are rigid: a frame is where the bodies (grains and pieces of the walls) are, what the grains have turned, and what
+they bear. How discs lie on a body is told once, as in the first frame.
+"""
+
+import base64
+import zlib
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.colors import Colormap, to_hex
+
+from .canvas import round_down
+from .drawing import OUTLINE, OUTLINE_COLOUR, ROTATION_TITLE, ROTATIONS, WALL_COLOUR, extent
+from .motion import full_speed
+from .paints import COLUMNS, grain_areas, mean_stress
+from .readers import Columns
+from .shear import Shear
+from .specimen import Film, Moment
+from .style import looks
+
+MOST_FRAMES = 26  # of a test, first and last among them; the player goes straight from one to the next
+FEWEST_FRAMES = 5
+MOST_PLACES = 250_000  # bodies times frames of a test: some 2 MB of the page
+ROWS = 200  # of the curves, at full speed
+SHADES = 48
+SEEN = 0.98  # share of the grains of all frames that the colours reach over
+CHOSEN_COLOUR = "#ff00c8"  # in no scale of colours
+LAST = np.iinfo(np.uint16).max
+PAINTS: dict[str, tuple[Colormap, str, bool]] = {  # by name of the value: colours, title, whether below 0 as well
+    "turned": (ROTATIONS, ROTATION_TITLE, True),
+    "stress": (colormaps["magma_r"], "mean stress of the grain over σ of the lid", False),
+    "contacts": (colormaps["viridis"], "contacts of the grain", False),
+}
+
+
+def film_of(shears: Sequence[Shear], thickness: float) -> dict[str, Any]:
+    """What player.js plays; nothing if each test has too many grains. thickness (m) is that of the grains.
+
+    Raises ShearboxError where the dumps lack columns or are damaged.
+    """
+    tests = {shear.sigma: test for shear in shears if (test := _test(shear, thickness))}
+    if not tests:
+        return {}
+    paints = [
+        _paint(name, np.concatenate([test["values"][name].ravel() for test in tests.values()])) for name in PAINTS
+    ]
+    colours = looks([shear.sigma for shear in shears])
+    for sigma, test in tests.items():
+        test["colour"] = colours[sigma].colour
+        test["values"] = {name: packed(values) for name, values in test["values"].items()}
+    walls = {"wall": WALL_COLOUR, "outline": OUTLINE_COLOUR, "chosen": CHOSEN_COLOUR, "inner": 1 - 2 * OUTLINE}
+    return {"tests": list(tests.values()), "paints": paints, **walls}
+
+
+def packed(values: np.ndarray) -> dict[str, Any]:
+    """(frames, n) numbers as whole ones of 16 bits: low + step times these. Of frames after the first the change, modulo
+    2^16; first all low bytes, then all high ones, most of which are the same; then zlib and base64."""
+    low, high = float(values.min()), float(values.max())
+    step = (high - low) / LAST if high > low else 1.0
+    whole = np.round((values - low) / step).astype(np.uint16)
+    change = np.diff(whole, axis=0, prepend=np.zeros((1, whole.shape[1]), np.uint16))
+    halves = change.astype("<u2").ravel().view(np.uint8).reshape(-1, 2).T
+    return {"low": low, "step": step, "data": base64.b64encode(zlib.compress(halves.tobytes(), 9)).decode()}
+
+
+def _test(shear: Shear, thickness: float) -> dict[str, Any] | None:
+    film = Film(shear.folder, shear.data["step"], shear.data["displacement_mm"], **COLUMNS["stress"])
+    first = film.first()
+    frames = min(MOST_FRAMES, MOST_PLACES // len(first.grains["id"]), len(film.steps))
+    if frames < min(FEWEST_FRAMES, len(film.steps)):
+        return None
+    wanted = np.linspace(0, len(film.steps) - 1, frames).round().astype(int)
+    moments = [first, *(film.moment(film.steps[k]) for k in wanted[1:])]
+    bodies = _Bodies(first, 1000 * shear.sigma * thickness)
+    low, high = extent([moments[0], moments[-1]])
+    moving = np.arange(len(shear.data["step"]))[full_speed(shear.data)]
+    rows = moving[np.linspace(0, len(moving) - 1, ROWS).round().astype(int)]
+    return {
+        "sigma": shear.sigma,
+        "displacement": _short([moment.displacement for moment in moments]),
+        "curves": {name: _short(shear.data[name][rows]) for name in ("displacement_mm", "tau_kPa", "lid_mm")},
+        "low": low.tolist(),
+        "high": high.tolist(),
+        "bar_mm": round_down(1000 * (high[0] - low[0]) / 5),
+        "bodies": len(bodies.ids),
+        "discs": bodies.discs(),
+        **bodies.frames(moments),
+    }
+
+
+class _Bodies:
+    """The grains of the first frame and then its walls, each by their ids; load: of the lid on a metre of width, N."""
+
+    def __init__(self, first: Moment, load: float) -> None:
+        self._first, self._load, self._areas = first, load, grain_areas(first)
+        self.ids = first.grains["id"][np.lexsort((first.grains["id"], first.grains["wall"]))].astype(int)
+        self._grains = int(np.sum(first.grains["wall"] == 0))
+
+    def discs(self) -> dict[str, Any]:
+        """Of each disc: number of its body, place on it when it has not turned yet, radius (m); those of a body in a row."""
+        discs, centres = self._first.discs, self._places(self._first.grains)
+        number = {body: k for k, body in enumerate(self.ids)}
+        of = np.array([number[int(i)] for i in discs["id"]])
+        order = np.argsort(of, kind="stable")
+        columns = {
+            "body": of,
+            "dx": discs["x"] - centres[0][of],
+            "dy": discs["y"] - centres[1][of],
+            "r": discs["radius"],
+        }
+        return {name: packed(column[None, order]) for name, column in columns.items()}
+
+    def frames(self, moments: Sequence[Moment]) -> dict[str, Any]:
+        """Ids of grains; of each frame places (m) of bodies, and of grains degrees turned, stress over the lid's, contacts.
+        What is lost stays where it was."""
+        places = [self._places(self._first.grains)]
+        values = [self._values(self._first)]
+        for moment in moments[1:]:
+            there = np.isin(self.ids, moment.grains["id"])
+            places.append(np.where(there, self._places(moment.grains), places[-1]))
+            values.append(np.where(there[: self._grains], self._values(moment), values[-1]))
+        x, y = np.moveaxis(np.array(places), 1, 0)
+        return {
+            "ids": packed(self.ids[None, : self._grains]),
+            "x": packed(x),
+            "y": packed(y),
+            "values": dict(zip(PAINTS, np.moveaxis(np.array(values), 1, 0))),
+        }
+
+    def _places(self, grains: Columns) -> np.ndarray:
+        row = _rows(grains["id"], self.ids)
+        return np.array([grains["x"][row], grains["y"][row]])
+
+    def _values(self, moment: Moment) -> np.ndarray:
+        ids = self.ids[: self._grains]
+        turned = moment.rotation_since(self._first)[disc := _rows(moment.discs["id"], ids)]
+        stress = mean_stress(moment, self._areas)[disc] / self._load
+        partners = np.concatenate([moment.contacts["id1"], moment.contacts["id2"]]).astype(int)
+        return np.array([np.degrees(turned), stress, np.bincount(partners, minlength=self.ids.max() + 1)[ids]])
+
+
+def _rows(present: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """A row of each wanted id, or any row if it is not present."""
+    order = np.argsort(present, kind="stable")
+    return order[np.searchsorted(present, wanted, sorter=order).clip(max=len(order) - 1)]
+
+
+def _paint(name: str, values: np.ndarray) -> dict[str, Any]:
+    colours, title, signed = PAINTS[name]
+    high = max(1e-9, float(np.quantile(np.abs(values), SEEN)))
+    shades = [to_hex(colours(k / (SHADES - 1))) for k in range(SHADES)]
+    return {"name": name, "title": title, "low": -high if signed else 0.0, "high": high, "shades": shades}
+
+
+def _short(values: Sequence[float] | np.ndarray) -> list[float]:
+    return [float(f"{value:.5g}") for value in values]
