@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The report on many runs: which of them belong together, what their means and shares are, what is left out."""
 
+import errno
 import json
+import os
 import shutil
 from dataclasses import replace
 from html.parser import HTMLParser
@@ -282,3 +284,17 @@ def test_runs_are_found_at_any_depth_but_not_within_runs(folder):
     inner.unlink()
     assert names == ["damaged", "fast", "slow/seed_2", "slow/seed_10", "stopped"]
     assert find_runs(folder / "fast") == [folder / "fast"]
+
+
+def test_a_folder_that_cannot_be_read_is_named(folder, monkeypatch):
+    """Rather than left out of a mean; modes do not stop root, who may run this."""
+    scan = os.scandir
+
+    def locked(path):
+        if Path(path) == folder / "slow":
+            raise PermissionError(errno.EACCES, "Permission denied", str(path))
+        return scan(path)
+
+    monkeypatch.setattr(os, "scandir", locked)
+    with pytest.raises(ShearboxError, match="slow: this folder cannot be read: Permission denied"):
+        find_runs(folder)

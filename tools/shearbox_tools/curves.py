@@ -155,7 +155,7 @@ def _draw_peak(axes: Axes, position: float, value: float, look: Look) -> None:
 def _finish(axes: Axes, results: Results, heights: list[np.ndarray]) -> None:
     """Axes as high as the curves at full speed: spikes of start and stop do not widen them."""
     low, high = min(0.0, *(h.min() for h in heights)), max(0.0, *(h.max() for h in heights))
-    margin = MARGIN * (high - low)
+    margin = MARGIN * (high - low) or 1.0  # a curve may be zero all along
     axes.set_ylim(low - margin * (low < 0), high + margin)
     axes.set_xlim(0, results.identity["travel_mm"])
     axes.axhline(0, color="#8a929b", lw=0.8, zorder=1)

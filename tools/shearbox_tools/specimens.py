@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from .errors import InputError
+from .errors import InputError, ShearboxError
 from .files import LOCK, RECORD
 from .phases import Phase
 from .request import Request, check_folder, read_record
@@ -65,13 +65,20 @@ def read_seeds(given: list[int], independent: bool, stresses: Iterable[float]) -
 
 
 def find_runs(folder: Path, marks: tuple[str, ...] = (RECORD,)) -> list[Path]:
-    """Folders at or below one that hold a file of such a name, in order of their names; what is below them is theirs."""
+    """Folders at or below one that hold a file of such a name, in order of their names; what is below them is theirs.
+
+    Raises ShearboxError for a folder that cannot be read: a mean without its specimens would not be missed.
+    """
     found = []
-    for place, below, files in os.walk(folder):
+    for place, below, files in os.walk(folder, onerror=_refuse):
         if any(mark in files for mark in marks):
             found.append(Path(place))
             below.clear()
     return sorted(found, key=_natural)
+
+
+def _refuse(error: OSError) -> None:
+    raise ShearboxError(f"{error.filename}: this folder cannot be read: {error.strerror}") from error
 
 
 def check_out(out: Path, runs: list[Run]) -> None:
