@@ -12,6 +12,7 @@ import shearbox_tools
 ROOT = Path(__file__).resolve().parents[2]
 MODEL = "TypeA_10x5_2-4_3-circle_350"
 SOON_PACKED = "TypeA_10x5_4-8_1-circle_350"
+MODULES = Path("/usr/share/modules/init/bash")
 # No more than a new user has: nothing here may point to the repository.
 ENVIRONMENT = {"PATH": "/usr/bin:/bin", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
@@ -77,7 +78,11 @@ def test_plugin_and_styles_are_side_by_side(prefix: Path) -> None:
     assert names - {"liggghts_cdem.so"} == {"cdemplugin.so", "cdemstyles.so"}  # the third where LIGGGHTS is installed
 
 
-def test_modulefile(prefix: Path) -> None:
-    file = prefix / "share" / "shearbox" / "modulefiles" / "shearbox" / shearbox_tools.__version__
-    up = re.findall(r"ModulesCurrentModulefile\] (\S+?)\]", file.read_text(encoding="utf-8"))
-    assert [(file.parent / path).resolve() for path in up] == [prefix]
+@pytest.mark.skipif(not MODULES.exists(), reason="needs Debian's environment-modules")
+def test_modulefile(prefix: Path, tmp_path: Path) -> None:
+    """Loaded, its commands and its module of Python are those of the folder; unloaded, there are none."""
+    load = f". {MODULES}; module use {prefix}/share/shearbox/modulefiles; module load shearbox"
+    commands = ["command -v shearbox lmp_cdem", "/usr/bin/python3 -c 'import shearbox; print(shearbox.__file__)'"]
+    said = start("bash", "-c", "\n".join([load, *commands, "module unload shearbox", "echo $PATH"]), cwd=tmp_path)
+    files = [prefix / "bin" / "shearbox", prefix / "bin" / "lmp_cdem", prefix / "share/shearbox/tools/shearbox.py"]
+    assert said.splitlines() == [*map(str, files), ENVIRONMENT["PATH"]]
