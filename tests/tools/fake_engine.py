@@ -20,7 +20,7 @@ from shearbox_tools.phases import rows_of_shear, steps_between_frames  # noqa: E
 from shearbox_tools.restarts import step_of  # noqa: E402
 
 ROWS = rows_of_shear()
-ROWS_PER_FRAME = steps_between_frames(1)
+ROWS_PER_FRAME = steps_between_frames({}, 1)
 ROWS_PER_RESTART = ROWS // 50
 
 

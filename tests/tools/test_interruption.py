@@ -29,7 +29,7 @@ from shearbox_tools.seals import Seal, look_at, refuse_altered, seal
 
 ROWS = rows_of_shear()
 EVERY = synthetic.STEPS_PER_ROW
-FRAME = steps_between_frames(EVERY)
+FRAME = steps_between_frames({}, EVERY)
 MODEL = find_model("TypeA_10x5_4-8_1-circle_350")
 REQUEST = Request(MODEL, (100.0,))
 PACK, CONSOLIDATE, SHEAR = "pack", "consolidate", "shear"

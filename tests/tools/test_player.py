@@ -201,7 +201,8 @@ def test_too_many_grains(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert len(player.film_of(results.shears, THICKNESS)["tests"][0]["displacement"]) == 3
     monkeypatch.setattr(player, "FEWEST_FRAMES", 4)
     assert player.film_of(results.shears, THICKNESS) == {}
-    assert 'id="player"' not in report(folder).read_text(encoding="utf-8")
+    page = report(folder).read_text(encoding="utf-8")
+    assert 'id="player"' not in page and "no player: these are too many grains for a page" in page
 
 
 def test_a_column_that_is_not_there(tmp_path: Path) -> None:

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What a run will do, about how long that takes, and how much it writes.
 
-All times are estimates: steps from the stability limit of the smallest disc and from what packing has taken for the
-models there are; the time of a step from the log of the packing if that is done, else as measured on one machine.
+All times are estimates: steps from the stability limit of the smallest disc and from what packing has taken in boxes up to
+80 cm high (tests/validation/packing); the time of a step from the log of the packing if that is done, else as measured on
+one machine.
 """
 
 import math
@@ -13,12 +14,13 @@ from .display import duration
 from .logs import read_logs
 from .models import PARAMETERS, read_variables
 from .numerals import number
-from .phases import CONSOLIDATE, PACK, SHEAR, Phase, deck, disk_need, packing, shearing
+from .phases import CONSOLIDATE, PACK, SHEAR, Phase, disk_need, frames_of, packing, shearing
 from .request import Request
 
-SECONDS_PER_DISC_AND_STEP = 25e-9
+SECONDS = {PACK: 45e-9, CONSOLIDATE: 25e-9, SHEAR: 25e-9}  # a disc and step; loose grains need new lists all the time
 SECONDS_PER_DISC_AND_FRAME = 18e-6
-STEPS = {PACK: 40_000, CONSOLIDATE: 10_000}  # for each disc of a grain: 22,000 to 80,000, and 4,000 to 20,000
+# for each disc of a grain; a high box takes waves longer to cross, and to come to rest
+STEPS_OF_PACKING, STEPS_PER_DIAMETER, STEPS_OF_CONSOLIDATION = 20_000, 250, 10_000
 
 
 class Forecast:
@@ -31,7 +33,7 @@ class Forecast:
         self._shearing = [phase for sigma in request.stresses for phase in shearing(folder, request, sigma)]
         self._dt = time_step(request)
         self._discs = request.model.ngrains * request.model.discs
-        self._pace = self._recorded_pace() or SECONDS_PER_DISC_AND_STEP
+        self._slowness = (self._recorded_pace() or SECONDS[PACK]) / SECONDS[PACK]
 
     @property
     def head(self) -> str:
@@ -57,8 +59,8 @@ class Forecast:
 
     @property
     def pace(self) -> float:
-        """Seconds a disc and step."""
-        return self._pace
+        """Seconds a disc and step of shear."""
+        return self._slowness * SECONDS[SHEAR]
 
     @property
     def bytes(self) -> int:
@@ -78,8 +80,9 @@ class Forecast:
 
     def work(self, phase: Phase) -> float:
         """Time of a whole phase."""
-        frames = int(read_variables(deck(SHEAR))["frames"]) if phase.name == SHEAR else 0
-        return self._discs * (self._steps(phase) * self._pace + frames * SECONDS_PER_DISC_AND_FRAME)
+        frames = frames_of(phase.variables) if phase.name == SHEAR else 0
+        pace = self._slowness * SECONDS[phase.name]
+        return self._discs * (self._steps(phase) * pace + frames * SECONDS_PER_DISC_AND_FRAME)
 
     def share_done(self, phase: Phase) -> float:
         """The part of a phase that is done, from 0 to 1."""
@@ -97,8 +100,11 @@ class Forecast:
         return f"about {float(f'{steps:.2g}'):,.0f} steps{step}, {duration(self.left(phase))}"
 
     def _steps(self, phase: Phase) -> float:
-        if phase.name != SHEAR:
-            return self._request.model.discs * STEPS[phase.name]
+        model = self._request.model
+        if phase.name == PACK:
+            return model.discs * (STEPS_OF_PACKING + STEPS_PER_DIAMETER * 2 * model.half_height / model.dmin)
+        if phase.name == CONSOLIDATE:
+            return model.discs * STEPS_OF_CONSOLIDATION
         return self._request.travel / self._request.speed / self._dt
 
     def _recorded_pace(self) -> float | None:
@@ -118,7 +124,7 @@ def total(forecasts: Sequence[Forecast], jobs: int) -> str:
     paces = sorted({f"{1e9 * f.pace:.0f}" for f in forecasts}, key=float)
     return (
         f"about {duration(seconds)} and {sum(f.bytes for f in forecasts) / 1e6:.0f} MB (an estimate from "
-        f"{' to '.join(dict.fromkeys([paces[0], paces[-1]]))} ns a disc and step, good to a factor of 2)"
+        f"{' to '.join(dict.fromkeys([paces[0], paces[-1]]))} ns a disc and step of shear, good to a factor of 2)"
     )
 
 

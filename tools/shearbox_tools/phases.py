@@ -3,13 +3,15 @@
 
 import math
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from .errors import InputError, ShearboxError
 from .files import CONSOLIDATED_RESTART, CONSOLIDATED_TABLE, DUMPS, PACKED, PACKED_RESTART, PACKED_TABLE
 from .files import SHEAR_RESTARTS, SHEAR_TABLE, SHEARED_RESTART, log_file, stress_folder
-from .models import INPUT, read_variables
+from .models import INPUT, PARAMETERS, read_variables
+from .numerals import number
 from .readers import last_value, read_row, read_shear
 from .request import Request
 from .restarts import step_of
@@ -155,15 +157,19 @@ def rows_of_shear() -> int:
     return int(read_variables(deck(SHEAR))["rows"])
 
 
-def steps_between_frames(steps_between_rows: int) -> int:
+def frames_of(settings: Mapping[str, str]) -> int:
+    """Frames of a shear phase, after the first."""
+    return int(number(settings.get("frames") or read_variables(PARAMETERS)["frames"]))
+
+
+def steps_between_frames(settings: Mapping[str, str], steps_between_rows: int) -> int:
     """As shear.in has it."""
-    variables = read_variables(deck(SHEAR))
-    return steps_between_rows * math.ceil(int(variables["rows"]) / int(variables["frames"]))
+    return steps_between_rows * math.ceil(rows_of_shear() / frames_of(settings))
 
 
 def disk_need(request: Request, folder: Path) -> int:
     """Bytes that the phases not yet done will write, roughly."""
-    frames = 1 + int(read_variables(deck(SHEAR))["frames"])
+    frames = 1 + frames_of(request.settings)
     left = [chain for chain in left_to_do(folder, request)[1] if chain[-1].name == SHEAR]
     return int(len(left) * request.model.ngrains * request.model.discs * BYTES_PER_FRAME_AND_DISC * frames)
 

@@ -55,7 +55,7 @@ def _reaching(phase: Phase, step: int) -> tuple[list[Dump], int]:
     rows = [int(row) for row in read_shear(table)["step"]]
     if step not in rows:
         raise ShearboxError(f"{table} has no row of that step")
-    every = steps_between_frames(rows[0])
+    every = steps_between_frames(phase.variables, rows[0])
     frames = list(range(0, step + 1, every))
     dumps = [Dump(phase.folder / name) for name in DUMPS]
     for dump in dumps:

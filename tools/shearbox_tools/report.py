@@ -105,10 +105,13 @@ def _film(results: Results, specimens: dict[float, Stills]) -> dict[str, Any]:
     if not shears or thickness is None:
         return {}
     try:
-        return film_of(shears, thickness)
+        film = film_of(shears, thickness)
     except ShearboxError as error:
         results.notes.append(f"no player: {error}")
         return {}
+    if not film:
+        results.notes.append("no player: these are too many grains for a page; shearbox film shows them")
+    return film
 
 
 def _thickness(results: Results) -> float | None:
