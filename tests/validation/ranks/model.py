@@ -5,7 +5,7 @@ A rank with n discs takes
 
     T(n, ranks) = n t + m a + (b sqrt(n) + b0) / B + r a log2(ranks)
 
-t: time of a disc and step, as measured on one rank; m: messages; b sqrt(n) + b0: bytes, whose number grows with the length
+t: time of a disc and step, of 1e5 discs on one rank in tests/benchmarks; m: messages; b sqrt(n) + b0: bytes, whose number grows with the length
 of the rank's border; r: reductions, which take log2(ranks) stages of a message each (recursive doubling; Thakur,
 Rabenseifner, Gropp, Int. J. High Perform. Comput. Appl. 19 (2005) 49). a: latency, B: bandwidth of the network. Nothing is
 overlapped, and no rank waits for another one that has more to do. The efficiency is n t / T.
@@ -24,6 +24,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from scipy.optimize import brentq  # noqa: E402
 
+DISC = 16e-9  # s
 LATENCY, BANDWIDTH = 1.5e-6, 10e9  # s, bytes/s: of an InfiniBand network, between nodes
 RANKS = (16, 64, 256, 1024, 4096)
 GRAINS = (9_000, 36_000, 144_000, 1_000_000, 10_000_000)
@@ -37,7 +38,6 @@ LOOKS = dict(
 class Cost:
     """What a step costs; counts are of the rank that sends most."""
 
-    disc: float  # s
     messages: float
     of_border: float  # bytes over the root of the discs of a rank
     fixed: float  # bytes
@@ -47,11 +47,11 @@ class Cost:
         """Of a step, with so many discs on each rank."""
         sent = self.of_border * np.sqrt(discs) + self.fixed
         waits = self.messages * LATENCY + sent / BANDWIDTH + self.reductions * LATENCY * np.log2(ranks)
-        return float(discs * self.disc + waits)
+        return float(discs * DISC + waits)
 
     def efficiency(self, discs: float, ranks: float) -> float:
         """Time of the discs alone over that of the step."""
-        return discs * self.disc / self.seconds(discs, ranks)
+        return discs * DISC / self.seconds(discs, ranks)
 
     def discs_for(self, efficiency: float, ranks: float) -> float:
         """Discs that a rank must have."""
@@ -60,18 +60,17 @@ class Cost:
     def most_ranks(self, discs: float) -> int:
         """Powers of two up to which twice the ranks pay."""
         ranks = 1
-        while self.seconds(discs / (2 * ranks), 2 * ranks) <= WORTH * self.seconds(discs / ranks, max(ranks, 1)):
+        while self.seconds(discs / (2 * ranks), 2 * ranks) <= WORTH * self.seconds(discs / ranks, ranks):
             ranks *= 2
         return ranks
 
 
 def cost(counted: dict[str, Any]) -> Cost:
-    """Of the ranks that have neighbours on all sides, 16 and more."""
-    inner = {int(ranks): counts for ranks, counts in counted["ranks"].items() if int(ranks) >= 16}
+    """Of ranks that have neighbours on all sides, from 32 on in a box that is wider than high."""
+    inner = {int(ranks): counts for ranks, counts in counted["ranks"].items() if int(ranks) >= 32}
     root = np.sqrt([counted["discs"] / ranks for ranks in inner])
     slope, fixed = np.polyfit(root, [counts["bytes"] for counts in inner.values()], 1)
     return Cost(
-        counted["ranks"]["1"]["seconds"] / counted["discs"],
         max(counts["messages"] for counts in inner.values()),
         float(slope),
         float(fixed),
@@ -90,7 +89,7 @@ def publish(counted: dict[str, Any], out: Path) -> str:
         numbers = " | ".join(f"{counts[name]:.4g}" for name in ("messages", "bytes", "reductions", "bytes_reduced"))
         text += f"| {ranks} | {counted['discs'] / int(ranks):.0f} | {numbers} |\n"
     text += (
-        f"\nModel: {1e9 * of.disc:.1f} ns a disc, {of.messages:.3g} messages, {of.of_border:.0f} √n + {of.fixed:.0f} bytes, "
+        f"\nModel: {1e9 * DISC:g} ns a disc, {of.messages:.3g} messages, {of.of_border:.0f} √n + {of.fixed:.0f} bytes, "
         f"{of.reductions:.3g} reductions; network: {1e6 * LATENCY:g} µs, {BANDWIDTH / 1e9:g} GB/s. Efficiency of the ranks:\n\n"
         f"| grains | {' | '.join(f'{ranks} ranks' for ranks in RANKS)} | twice the ranks pay up to |\n|{'---|' * (2 + len(RANKS))}\n"
     )
