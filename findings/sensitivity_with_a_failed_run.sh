@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # SALib 1.6.0: Sobol indices of a study in which one run has failed.
 #
-# Guess: with NaN for that run the indices are NaN, as those of other analyses of the package (rbd_fast) are, or it is refused.
+# Guess: with NaN for that run the indices are NaN.
 # Seen:  all indices and their confidence intervals are exactly 0, without a word: no parameter has any influence, and that for
 #        sure. (A few hundred good runs beside it don't matter.)
 # For us: a study of parameters with `shearbox run --set` can have failed runs: look for NaN before the analysis, and run these
