@@ -15,7 +15,9 @@ from shearbox_tools import __version__  # noqa: E402
 
 project, release = "Shearbox", __version__
 copyright = "the developers of Shearbox, GPL-2.0-or-later"
-extensions = ["myst_parser"]
+extensions = ["myst_parser", "sphinx.ext.autodoc"]
+autodoc_mock_imports = ["pandas"]  # the manual can be built without
+nitpick_ignore_regex = [("py:.*", ".*")]  # types of other libraries have no pages here
 source_suffix = {".md": "markdown"}
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Shearbox in a script or a notebook: run tests, read what they gave, as tables of pandas.
+"""Shearbox in a script or a notebook: run tests, read what they gave, as tables of pandas::
 
     import shearbox
 
