@@ -33,3 +33,19 @@ def test_no_work_is_lost(fault: Callable[[Bench], None], cluster: Cluster, tmp_p
     finally:
         print("\n".join(bench.diary))
         cluster.clear()
+
+
+def test_ranks(cluster: Cluster, tmp_path: Path) -> None:
+    """The engine itself, on two ranks, is requeued: the same bits as without Slurm."""
+    bench = Bench(cluster, tmp_path, ["--ranks", "2"])
+    try:
+        job = bench.submit(1)
+        bench.wait_for_travel(1)
+        bench.scontrol("requeue", f"{job}_1")
+        bench.wait_for_end(job)
+        assert "on 2 procs" in (bench.out / "seed_1" / "100" / "shear.log").read_text(encoding="utf-8")
+        assert "shear 100 kPa: started at 0." in bench.log(1), "it goes on, from a restart file on the way"
+        bench.check_bits(1)
+    finally:
+        print("\n".join(bench.diary))
+        cluster.clear()
