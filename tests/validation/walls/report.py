@@ -35,6 +35,10 @@ def publish(values: Values, out: Path) -> Path:
     text += table(
         "walls", [(m, w, groups[m, w]) for m in models for w in ("discs_1_1", "smooth_1_1") if (m, w) in groups]
     )
+    text += f"\nOver all of these specimens:\n\n{ranges(values)}"
+    text += (
+        f"\nDiscs less smooth, pairs of the same model and seed, without equal discs of 2 mm:\n\n{differences(values)}"
+    )
     text += "\nOther discs and distances: kind of sides, size of wall discs over the smallest grain, pitch of side discs.\n\n"
     studied = [(m, w, rows) for (m, w), rows in sorted(groups.items()) if m in STUDIED]
     text += table("walls", studied)
@@ -52,6 +56,36 @@ def table(title: str, rows: list[tuple[str, str, list[dict[str, float]]]]) -> st
             spread = f" ± {np.ptp(of_seeds) / 2:.2f}" if len(found) > 1 else ""
             cells.append(f"{np.mean(of_seeds):.2f}{spread}")
         lines.append(f"| {model} | {walls.replace('_', ' ')} | {len(found)} | " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def ranges(values: Values) -> str:
+    """Least, greatest and mean of the loads, over those specimens."""
+    lines = ["| | discs | smooth |", "|---|---|---|"]
+    for name in ("sides_at_rest", "sides_at_peak", "sides_mean", "flanges_mean"):
+        found = [[row[name] for key, row in values.items() if f"/{sides}_1_1/" in key] for sides in ("discs", "smooth")]
+        cells = " | ".join(f"{min(v):.3f} to {max(v):.3f}, mean {np.mean(v):.3f} of {len(v)}" for v in found)
+        lines.append(f"| {COLUMNS[name]} | {cells} |")
+    return "\n".join(lines) + "\n"
+
+
+def differences(values: Values) -> str:
+    """Mean over pairs, with its standard error, and the mean over the models with smooth sides."""
+    lines = ["| | single discs | grains of three |", "|---|---|---|"]
+    for name in ("peak_lid", "peak_plane", "dilatancy", "trm"):
+        cells = []
+        for shape in ("_1-circle", "_3-circle"):
+            smooth: dict[str, list[float]] = defaultdict(list)
+            pairs = []
+            for key, row in values.items():
+                other = values.get(key.replace("/discs_1_1/", "/smooth_1_1/"))
+                if "/discs_1_1/" in key and shape in key and "T-2" not in key and other:
+                    pairs.append(row[name] - other[name])
+                    smooth[key.split("/")[0]].append(other[name])
+            error = np.std(pairs, ddof=1) / len(pairs) ** 0.5
+            usual = np.mean([np.mean(of_model) for of_model in smooth.values()])
+            cells.append(f"{np.mean(pairs):.3f} ± {error:.3f} ({len(pairs)}), of {usual:.2f}")
+        lines.append(f"| {COLUMNS[name]} | {' | '.join(cells)} |")
     return "\n".join(lines) + "\n"
 
 
