@@ -53,8 +53,8 @@ def film_of(shears: Sequence[Shear], thickness: float) -> dict[str, Any]:
     for sigma, test in tests.items():
         test["colour"] = colours[sigma].colour
         test["values"] = {name: packed(values) for name, values in test["values"].items()}
-    walls = {"wall": WALL_COLOUR, "outline": OUTLINE_COLOUR, "chosen": CHOSEN_COLOUR, "inner": 1 - 2 * OUTLINE}
-    return {"tests": list(tests.values()), "paints": paints, **walls}
+    discs = {"wall": WALL_COLOUR, "outline": OUTLINE_COLOUR, "chosen": CHOSEN_COLOUR, "inner": 1 - 2 * OUTLINE}
+    return {"tests": list(tests.values()), "paints": paints, **discs}
 
 
 def packed(values: np.ndarray) -> dict[str, Any]:
@@ -138,7 +138,8 @@ class _Bodies:
 
     def _values(self, moment: Moment) -> np.ndarray:
         ids = self.ids[: self._grains]
-        turned = moment.rotation_since(self._first)[disc := _rows(moment.discs["id"], ids)]
+        disc = _rows(moment.discs["id"], ids)
+        turned = moment.rotation_since(self._first)[disc]
         stress = mean_stress(moment, self._areas)[disc] / self._load
         partners = np.concatenate([moment.contacts["id1"], moment.contacts["id2"]]).astype(int)
         return np.array([np.degrees(turned), stress, np.bincount(partners, minlength=self.ids.max() + 1)[ids]])

@@ -78,6 +78,8 @@ def find_runs(folder: Path, marks: tuple[str, ...] = (RECORD,)) -> list[Path]:
 
 
 def _refuse(error: OSError) -> None:
+    if isinstance(error, FileNotFoundError):
+        return  # what is not there holds no run
     raise ShearboxError(f"{error.filename}: this folder cannot be read: {error.strerror}") from error
 
 
