@@ -11,7 +11,7 @@ from matplotlib.colors import Colormap
 from .drawing import ROTATION_TITLE, ROTATIONS
 from .dumps import CONTACTS, DISCS, GRAINS
 from .grains import area_over_largest
-from .specimen import Moment
+from .specimen import Moment, rows_of
 
 # of the dumps, beyond those that every picture is made of
 COLUMNS: dict[str, dict[str, tuple[str, ...]]] = {
@@ -77,6 +77,5 @@ def mean_stress(moment: Moment, areas: np.ndarray) -> np.ndarray:
 
 def _speed(moment: Moment) -> np.ndarray:
     grains = moment.grains
-    order = np.argsort(grains["id"])
-    row = order[np.searchsorted(grains["id"], moment.discs["id"], sorter=order)]
+    row = rows_of(grains["id"], moment.discs["id"])
     return 1000 * np.hypot(grains["vx"], grains["vy"])[row]

@@ -12,15 +12,16 @@ from typing import Any
 
 import numpy as np
 from matplotlib import colormaps
-from matplotlib.colors import Colormap, to_hex
+from matplotlib.colors import to_hex
 
 from .canvas import round_down
-from .drawing import OUTLINE, OUTLINE_COLOUR, ROTATION_TITLE, ROTATIONS, WALL_COLOUR, extent
+from .drawing import OUTLINE, OUTLINE_COLOUR, WALL_COLOUR, extent
 from .motion import full_speed
-from .paints import COLUMNS, grain_areas, mean_stress
+from .paints import COLUMNS, Paint, make_paint
 from .readers import Columns
+from .scene import SEEN
 from .shear import Shear
-from .specimen import Film, Moment
+from .specimen import Film, Moment, rows_of
 from .style import looks
 
 MOST_FRAMES = 26  # of a test, first and last among them; the player goes straight from one to the next
@@ -28,14 +29,8 @@ FEWEST_FRAMES = 5
 MOST_PLACES = 250_000  # bodies times frames of a test: some 2 MB of the page
 ROWS = 200  # of the curves, at full speed
 SHADES = 48
-SEEN = 0.98  # share of the grains of all frames that the colours reach over
 CHOSEN_COLOUR = "#ff00c8"  # in no scale of colours
 LAST = np.iinfo(np.uint16).max
-PAINTS: dict[str, tuple[Colormap, str, bool]] = {  # by name of the value: colours, title, whether below 0 as well
-    "turned": (ROTATIONS, ROTATION_TITLE, True),
-    "stress": (colormaps["magma_r"], "mean stress of the grain over σ of the lid", False),
-    "contacts": (colormaps["viridis"], "contacts of the grain", False),
-}
 
 
 def film_of(shears: Sequence[Shear], thickness: float) -> dict[str, Any]:
@@ -43,18 +38,26 @@ def film_of(shears: Sequence[Shear], thickness: float) -> dict[str, Any]:
 
     Raises ShearboxError where the dumps lack columns or are damaged.
     """
-    tests = {shear.sigma: test for shear in shears if (test := _test(shear, thickness))}
+    tests: dict[float, dict[str, Any]] = {}
+    paints: dict[str, Paint] = {}
+    for shear in shears:
+        film = Film(shear.folder, shear.data["step"], shear.data["displacement_mm"], **COLUMNS["stress"])
+        first = film.first()
+        if frames := _frames(film, len(first.grains["id"])):
+            paints = _paints(first, 1000 * shear.sigma * thickness)
+            tests[shear.sigma] = _test(shear, [first, *map(film.moment, frames[1:])], paints)
     if not tests:
         return {}
-    paints = [
-        _paint(name, np.concatenate([test["values"][name].ravel() for test in tests.values()])) for name in PAINTS
+    scales = [
+        _scale(name, paint, np.concatenate([test["values"][name].ravel() for test in tests.values()]))
+        for name, paint in paints.items()
     ]
     colours = looks([shear.sigma for shear in shears])
     for sigma, test in tests.items():
         test["colour"] = colours[sigma].colour
         test["values"] = {name: packed(values) for name, values in test["values"].items()}
     discs = {"wall": WALL_COLOUR, "outline": OUTLINE_COLOUR, "chosen": CHOSEN_COLOUR, "inner": 1 - 2 * OUTLINE}
-    return {"tests": list(tests.values()), "paints": paints, **discs}
+    return {"tests": list(tests.values()), "paints": scales, **discs}
 
 
 def packed(values: np.ndarray) -> dict[str, Any]:
@@ -68,15 +71,28 @@ def packed(values: np.ndarray) -> dict[str, Any]:
     return {"low": low, "step": step, "data": base64.b64encode(zlib.compress(halves.tobytes(), 9)).decode()}
 
 
-def _test(shear: Shear, thickness: float) -> dict[str, Any] | None:
-    film = Film(shear.folder, shear.data["step"], shear.data["displacement_mm"], **COLUMNS["stress"])
-    first = film.first()
-    frames = min(MOST_FRAMES, MOST_PLACES // len(first.grains["id"]), len(film.steps))
-    if frames < min(FEWEST_FRAMES, len(film.steps)):
-        return None
-    wanted = np.linspace(0, len(film.steps) - 1, frames).round().astype(int)
-    moments = [first, *(film.moment(film.steps[k]) for k in wanted[1:])]
-    bodies = _Bodies(first, 1000 * shear.sigma * thickness)
+def _frames(film: Film, bodies: int) -> list[int]:
+    """Steps of the frames to play; none if there would be too few."""
+    count = min(MOST_FRAMES, MOST_PLACES // bodies, len(film.steps))
+    if count < min(FEWEST_FRAMES, len(film.steps)):
+        return []
+    return [film.steps[k] for k in np.linspace(0, len(film.steps) - 1, count).round().astype(int)]
+
+
+def _paints(first: Moment, load: float) -> dict[str, Paint]:
+    """By name; load: of the lid on a metre of width, N."""
+    contacts = Paint(_contacts, colormaps["viridis"], "contacts of the grain", False)
+    return {**{by: make_paint(by, first, load) for by in ("rotation", "stress")}, "contacts": contacts}
+
+
+def _contacts(moment: Moment) -> np.ndarray:
+    ids = moment.discs["id"].astype(int)
+    partners = np.concatenate([moment.contacts["id1"], moment.contacts["id2"]]).astype(int)
+    return np.bincount(partners, minlength=ids.max() + 1)[ids]
+
+
+def _test(shear: Shear, moments: Sequence[Moment], paints: dict[str, Paint]) -> dict[str, Any]:
+    bodies = _Bodies(moments[0], paints)
     low, high = extent([moments[0], moments[-1]])
     moving = np.arange(len(shear.data["step"]))[full_speed(shear.data)]
     rows = moving[np.linspace(0, len(moving) - 1, ROWS).round().astype(int)]
@@ -94,10 +110,10 @@ def _test(shear: Shear, thickness: float) -> dict[str, Any] | None:
 
 
 class _Bodies:
-    """The grains of the first frame and then its walls, each by their ids; load: of the lid on a metre of width, N."""
+    """The grains of the first frame and then its walls, each by their ids."""
 
-    def __init__(self, first: Moment, load: float) -> None:
-        self._first, self._load, self._areas = first, load, grain_areas(first)
+    def __init__(self, first: Moment, paints: dict[str, Paint]) -> None:
+        self._first, self._paints = first, paints
         self.ids = first.grains["id"][np.lexsort((first.grains["id"], first.grains["wall"]))].astype(int)
         self._grains = int(np.sum(first.grains["wall"] == 0))
 
@@ -116,8 +132,8 @@ class _Bodies:
         return {name: packed(column[None, order]) for name, column in columns.items()}
 
     def frames(self, moments: Sequence[Moment]) -> dict[str, Any]:
-        """Ids of grains; of each frame places (m) of bodies, and of grains degrees turned, stress over the lid's, contacts.
-        What is lost stays where it was."""
+        """Ids of grains; of each frame places (m) of bodies, and of grains the values of the paints. What is lost stays where
+        it was."""
         places = [self._places(self._first.grains)]
         values = [self._values(self._first)]
         for moment in moments[1:]:
@@ -129,33 +145,22 @@ class _Bodies:
             "ids": packed(self.ids[None, : self._grains]),
             "x": packed(x),
             "y": packed(y),
-            "values": dict(zip(PAINTS, np.moveaxis(np.array(values), 1, 0))),
+            "values": dict(zip(self._paints, np.moveaxis(np.array(values), 1, 0))),
         }
 
     def _places(self, grains: Columns) -> np.ndarray:
-        row = _rows(grains["id"], self.ids)
+        row = rows_of(grains["id"], self.ids)
         return np.array([grains["x"][row], grains["y"][row]])
 
     def _values(self, moment: Moment) -> np.ndarray:
-        ids = self.ids[: self._grains]
-        disc = _rows(moment.discs["id"], ids)
-        turned = moment.rotation_since(self._first)[disc]
-        stress = mean_stress(moment, self._areas)[disc] / self._load
-        partners = np.concatenate([moment.contacts["id1"], moment.contacts["id2"]]).astype(int)
-        return np.array([np.degrees(turned), stress, np.bincount(partners, minlength=self.ids.max() + 1)[ids]])
+        disc = rows_of(moment.discs["id"], self.ids[: self._grains])
+        return np.array([paint.values(moment)[disc] for paint in self._paints.values()])
 
 
-def _rows(present: np.ndarray, wanted: np.ndarray) -> np.ndarray:
-    """A row of each wanted id, or any row if it is not present."""
-    order = np.argsort(present, kind="stable")
-    return order[np.searchsorted(present, wanted, sorter=order).clip(max=len(order) - 1)]
-
-
-def _paint(name: str, values: np.ndarray) -> dict[str, Any]:
-    colours, title, signed = PAINTS[name]
+def _scale(name: str, paint: Paint, values: np.ndarray) -> dict[str, Any]:
     high = max(1e-9, float(np.quantile(np.abs(values), SEEN)))
-    shades = [to_hex(colours(k / (SHADES - 1))) for k in range(SHADES)]
-    return {"name": name, "title": title, "low": -high if signed else 0.0, "high": high, "shades": shades}
+    shades = [to_hex(paint.colormap(k / (SHADES - 1))) for k in range(SHADES)]
+    return {"name": name, "title": paint.title, "low": -high if paint.signed else 0.0, "high": high, "shades": shades}
 
 
 def _short(values: Sequence[float] | np.ndarray) -> list[float]:

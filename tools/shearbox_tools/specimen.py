@@ -46,6 +46,12 @@ class Moment:
         return np.stack([ends[0], points, ends[1]], axis=1)
 
 
+def rows_of(present: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """A row of each wanted id, or any row of one that is not present."""
+    order = np.argsort(present, kind="stable")
+    return order[np.searchsorted(present, wanted, sorter=order).clip(max=len(order) - 1)]
+
+
 def missing_frames(folder: Path) -> list[str]:
     """Files of the frames of a shear phase that are gone: they may be removed when they are no longer wanted."""
     return [name for name in PICTURED if not (folder / name).exists()]

@@ -67,7 +67,7 @@ function placeDiscs() {
   let last = -1, bx, by, cos, sin;
   discs.body.forEach((b, i) => { // those of a body are in a row
     if (b !== last) {
-      const angle = b < grains ? between(values.turned, b) * Math.PI / 180 : 0;
+      const angle = b < grains ? between(values.rotation, b) * Math.PI / 180 : 0;
       [last, bx, by, cos, sin] = [b, between(x, b), between(y, b), Math.cos(angle), Math.sin(angle)];
     }
     seen.x[i] = bx + cos * discs.dx[i] - sin * discs.dy[i];
@@ -173,10 +173,10 @@ function tell() {
     part('grain').textContent = 'Point at a grain, or touch it.';
     return;
   }
-  const {turned, stress, contacts} = test.values, nearest = Math.round(at);
+  const {rotation, stress, contacts} = test.values, nearest = Math.round(at);
   const k = Math.min(Math.floor(at), test.frames - 2), n = test.grains;
-  const spin = k < 0 ? 0 : (turned[(k + 1) * n + chosen] - turned[k * n + chosen]) / (test.displacement[k + 1] - test.displacement[k]);
-  part('grain').textContent = `Grain ${test.ids[chosen]}: turned ${number(between(turned, chosen), 1)}°, spin ${number(spin, 1)} °/mm, ` +
+  const spin = k < 0 ? 0 : (rotation[(k + 1) * n + chosen] - rotation[k * n + chosen]) / (test.displacement[k + 1] - test.displacement[k]);
+  part('grain').textContent = `Grain ${test.ids[chosen]}: turned ${number(between(rotation, chosen), 1)}°, spin ${number(spin, 1)} °/mm, ` +
     `${Math.round(contacts[nearest * n + chosen])} contacts, mean stress ${number(test.sigma * between(stress, chosen), 0)} kPa`;
 }
 
@@ -186,8 +186,9 @@ function choose(event) {
   const x = test.low[0] + (event.clientX - box.left) * scale, y = test.high[1] - (event.clientY - box.top) * scale;
   const {discs, seen, grains} = test;
   const found = discs.body.findIndex((b, i) => b < grains && Math.hypot(seen.x[i] - x, seen.y[i] - y) < discs.r[i]);
+  const before = chosen;
   chosen = found < 0 ? -1 : discs.body[found];
-  if (!playing) draw();
+  if (chosen !== before && !playing) draw();
 }
 
 function play(now) {
