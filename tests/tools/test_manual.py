@@ -9,7 +9,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from test_page import MISSING, chromium
+from test_page import MISSING, told
 
 from shearbox_tools.parameters import parameters
 
@@ -74,10 +74,8 @@ def test_on_a_phone(manual: Path, tmp_path: Path) -> None:
     tell = f"onload = () => {{ const found = JSON.stringify({look}); document.body.textContent = found; }}"
     harness = tmp_path / "harness.html"
     harness.write_text(f'<!DOCTYPE html><meta charset="utf-8"><body>{frames}<script>{tell}</script>', encoding="utf-8")
-    shown = chromium(tmp_path, "--allow-file-access-from-files", "--dump-dom", harness.as_uri())
-    body = re.search(r"<body>(.*)</body>", shown, re.DOTALL)
-    assert body
-    widths = dict(zip((str(page.relative_to(manual)) for page in pages), json.loads(body[1])))
+    found = told(tmp_path, harness, "--allow-file-access-from-files")
+    widths = dict(zip((str(page.relative_to(manual)) for page in pages), found))
     assert len(widths) > 25 and {name: width for name, width in widths.items() if width > 390} == {}
 
 

@@ -11,6 +11,7 @@ from collections import Counter
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Any
 
 import pytest
 import synthetic
@@ -89,6 +90,14 @@ def chromium(folder: Path, *arguments: str) -> str:
     return done.stdout
 
 
+def told(folder: Path, page: Path, *arguments: str) -> Any:
+    """What a page has put into its body, as JSON."""
+    shown = chromium(folder, *arguments, "--dump-dom", page.as_uri())
+    body = re.search(r"<body>(.*)</body>", shown, re.DOTALL)
+    assert body, shown[:1000]
+    return json.loads(html.unescape(body[1]))
+
+
 def faults(pages: list[tuple[str, int]], folder: Path) -> list[list[str]]:
     """What layout.js finds wrong with each of the pages, shown in a frame of so many px."""
     frames = "".join(
@@ -102,10 +111,7 @@ def faults(pages: list[tuple[str, int]], folder: Path) -> list[list[str]]:
     harness.write_text(
         f'<!DOCTYPE html><meta charset="utf-8"><body>{frames}<script>{script}\n{tell}</script>', encoding="utf-8"
     )
-    shown = chromium(folder, "--dump-dom", harness.as_uri())
-    body = re.search(r"<body>(.*)</body>", shown, re.DOTALL)
-    assert body, shown[:1000]
-    found: list[list[str]] = json.loads(html.unescape(body[1]))
+    found: list[list[str]] = told(folder, harness)
     return found
 
 

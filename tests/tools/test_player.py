@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The player of a report, in a browser: the grains are where the dumps have them, and are told with what the dumps say."""
 
-import html
 import json
 import re
 from pathlib import Path
@@ -10,12 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 import synthetic
-from test_page import chromium, pytestmark  # noqa: F401  (left out where there is no browser)
+from test_page import pytestmark, told  # noqa: F401  (left out where there is no browser)
 
 from shearbox_tools import player
-from shearbox_tools.dumps import CONTACTS, DISCS, GRAINS
 from shearbox_tools.models import find_model
-from shearbox_tools.paints import grain_areas, mean_stress
+from shearbox_tools.paints import COLUMNS, grain_areas, mean_stress
 from shearbox_tools.report import report
 from shearbox_tools.request import Request
 from shearbox_tools.results import read_results
@@ -95,12 +93,7 @@ def with_a_row_more(text: str) -> str:
 
 def film(folder: Path) -> Film:
     shear = read_results(folder).shears[0]
-    columns: dict[str, tuple[str, ...]] = {
-        "grains": GRAINS,
-        "discs": (*DISCS, "type"),
-        "contacts": (*CONTACTS, "fx", "fy"),
-    }
-    return Film(shear.folder, shear.data["step"], shear.data["displacement_mm"], **columns)
+    return Film(shear.folder, shear.data["step"], shear.data["displacement_mm"], **COLUMNS["stress"])
 
 
 def probe(folder: Path, places: list[tuple[float, float, float]], tmp_path: Path) -> list[dict[str, Any]]:
@@ -108,10 +101,7 @@ def probe(folder: Path, places: list[tuple[float, float, float]], tmp_path: Path
     page = tmp_path / "page.html"
     script = f"<script>{PROBE.replace('PROBES', json.dumps(places))}</script></body>"
     page.write_text((folder / "report.html").read_text(encoding="utf-8").replace("</body>", script), encoding="utf-8")
-    shown = chromium(tmp_path, "--window-size=1200,900", "--virtual-time-budget=20000", "--dump-dom", page.as_uri())
-    body = re.search(r"<body>(.*)</body>", shown, re.DOTALL)
-    assert body
-    found: list[dict[str, Any]] = json.loads(html.unescape(body[1]))
+    found: list[dict[str, Any]] = told(tmp_path, page, "--window-size=1200,900", "--virtual-time-budget=20000")
     return found
 
 

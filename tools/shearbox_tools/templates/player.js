@@ -110,27 +110,31 @@ function abgr(colour) { // as it stands in the memory of an image
   return (0xff << 24 | blue << 16 | green << 8 | red) >>> 0;
 }
 
+function inPicture(i, scale, height) { // px of a disc's centre
+  return [(test.seen.x[i] - test.low[0]) * scale, height - (test.seen.y[i] - test.low[1]) * scale];
+}
+
 function drawRing(context, scale, height) {
-  const {discs, seen} = test;
+  const {discs} = test;
   context.strokeStyle = film.chosen;
   context.lineWidth = 3;
   discs.body.forEach((b, i) => {
     if (b !== chosen) return;
     context.beginPath();
-    context.arc((seen.x[i] - test.low[0]) * scale, height - (seen.y[i] - test.low[1]) * scale, scale * discs.r[i], 0, 2 * Math.PI);
+    context.arc(...inPicture(i, scale, height), scale * discs.r[i], 0, 2 * Math.PI);
     context.stroke();
   });
 }
 
 function drawStraightWalls(context, scale, height) { // pieces of two discs: what lies between is of the wall as well
-  const {discs, seen, count, grains} = test;
+  const {discs, count, grains} = test;
   for (const [colour, share] of [[film.outline, 1], [film.wall, film.inner]])
     discs.body.forEach((b, i) => {
       if (b < grains || count[b] !== 2 || discs.body[i + 1] !== b) return;
       context.strokeStyle = colour;
       context.lineWidth = 2 * share * discs.r[i] * scale;
       context.beginPath();
-      for (const k of [i, i + 1]) context.lineTo((seen.x[k] - test.low[0]) * scale, height - (seen.y[k] - test.low[1]) * scale);
+      for (const k of [i, i + 1]) context.lineTo(...inPicture(k, scale, height));
       context.stroke();
     });
 }
@@ -164,7 +168,7 @@ function drawCurves() {
 
 function tell() {
   const moved = along(test.displacement), {displacement_mm: s, tau_kPa, lid_mm} = test.curves;
-  const number = (value, digits) => value.toFixed(digits).replace('-', '−');
+  const number = (value, digits) => value.toFixed(digits).replace(/^-(?=[0.]*$)/, '').replace('-', '−'); // no minus before a zero
   const now = `${number(moved, 2)} mm`;
   part('now').textContent = `${now}, τ ${number(interpolate(moved, s, tau_kPa), 1)} kPa (line), lid ${number(interpolate(moved, s, lid_mm), 3)} mm (dashes)`;
   slider.value = at;
