@@ -101,7 +101,7 @@ def test_a_model_file_lies_beside_the_campaign(tmp_path: Path) -> None:
         (f'[runs.a]\nmodel = "{MODEL}"\njobs = 2', "study.toml: [runs.a]: unrecognized arguments: --jobs 2"),
         (
             f'[all]\nseeds = "x"\n[runs.a]\nmodel = "{MODEL}"',
-            "study.toml: [all]: argument --seeds: invalid int value: 'x'",
+            "study.toml: [all]: argument --seeds: 'x': a number, or a range such as 4-8, is expected",
         ),
         (f'[runs.a]\nmodel = "{MODEL}"\n[runs.b]\nmodel = "none"', "study.toml: [runs.b]: unknown model 'none'"),
         (f'[runs.a]\nmodel = "{MODEL}"\nset = {{ phi = 95 }}', "[runs.a]: --set phi 95: 0 to 89 is expected"),

@@ -85,7 +85,7 @@ def test_two_specimens_keep_two_cores_busy(folder, tmp_path):
 def test_a_seed_and_a_stress_may_follow(folder, tmp_path):
     diary = tmp_path / "diary"
     assert shearbox(folder, "--seeds", "3", "7", "--stress", "100").returncode == 0
-    more = ("--seeds", "3", "5", "7", "--stress", "100", "300")
+    more = ("--seeds", "3", "5-5", "7", "--stress", "100", "300")
     assert shearbox(folder, *more, FAKE_DIARY=str(diary)).returncode == 0
     sheared = {place for event, phase, place in events(diary) if (event, phase) == ("end", "shear")}
     assert sheared == {"seed_3/300", "seed_5/100", "seed_5/300", "seed_7/300"}
@@ -174,7 +174,10 @@ REFUSED = [
     (["--seeds", "1", "3000", "--independent"], "with --independent, 1 to 2146 are expected"),
     (["--seeds", "2", "--independent", "--stress", "100", "10.125"], "--stress 10.125: with --independent, at most two"),
     (["--seeds", "2", "--stress", "0"], "--stress 0: a stress above 0 kPa"),
-    (["--seeds", "two"], "invalid int value: 'two'"),
+    (["--seeds", "two"], "argument --seeds: 'two': a number, or a range such as 4-8, is expected"),
+    (["--seeds", "4-"], "'4-': a number, or a range such as 4-8, is expected"),
+    (["--seeds", "8-4"], "--seeds 8-4: 1 to 200 specimens"),
+    (["--seeds", "4-6", "5"], "--seeds 4-6 5: a seed is named twice"),
     (["--seeds", "2", "--out", "/proc/nothing"], "--out /proc/nothing"),
 ]  # fmt: skip
 

@@ -3,9 +3,11 @@
 
 import csv
 import json
+import os
 import subprocess
+from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -16,8 +18,9 @@ from test_run import TESTS
 from paper_tools import findings
 from paper_tools.effects import CONFIRMED, CONTRADICTED, OPEN
 from paper_tools.findings import Finding, halves_agree, of_the_laws
-from paper_tools.specimens import NUMBERS, Group, Specimen
-from paper_tools.study import CAMPAIGNS, campaign_file, report
+from paper_tools.record import read_record, write_record
+from paper_tools.specimens import CURVES, JUDGED, NUMBERS, PLACES, Group, Specimen
+from paper_tools.study import CAMPAIGNS, Part, campaign_file, parts_left, report
 from shearbox_tools.cli import main
 from shearbox_tools.models import find_model
 from shearbox_tools.phases import shearing
@@ -39,8 +42,14 @@ def group(name: str, rng: np.random.Generator, **numbers: float) -> Group:
         near = {key: value * (1 + 0.01 * rng.normal()) for key, value in numbers.items()}
         test = dict.fromkeys(NUMBERS, 1.0) | {key: value for key, value in near.items() if key in NUMBERS}
         phi = numbers["phi"] + 0.1 * rng.normal()
-        specimens.append(Specimen(seed, {100.0: test, 200.0: test}, phi, 0.0, phi - 1, 0.0))
-    return Group(name, SimpleNamespace(specimens=[None] * PER_BOX), specimens)  # type: ignore[arg-type]
+        specimens.append(specimen(seed, {100.0: test, 200.0: test}, phi))
+    return Group(name, "", specimens)
+
+
+def specimen(seed: int, tests: dict[float, dict[str, float]], phi: float = 30.0, **more: Any) -> Specimen:
+    """All three features hold in it, and its curves are not known."""
+    holds: dict[str, bool | None] = dict.fromkeys(JUDGED, True)
+    return replace(Specimen(seed, tests, phi, 0.0, phi - 1, 0.0, {}, holds, 0.5), **more)
 
 
 def models(change: dict[str, dict[str, float]] | None = None) -> dict[str, Group]:
@@ -53,11 +62,6 @@ def models(change: dict[str, dict[str, float]] | None = None) -> dict[str, Group
                            "dilation_deg": 30.0 if triple else 20.0, "sharpness": 1.1}  # fmt: skip
                 made[f"{box}_{kind}"] = group(f"{box}_{kind}", rng, **(numbers | (change or {}).get(kind, {})))
     return made
-
-
-@pytest.fixture(autouse=True)
-def _features(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(findings, "holds_in", lambda run, name: True)
 
 
 def verdicts(found: list[Finding]) -> dict[str, str]:
@@ -95,11 +99,14 @@ def test_without_specimens_all_is_open() -> None:
 def test_laws_are_compared_on_the_same_packings() -> None:
     """However much packings scatter: seed by seed incremental is rougher by 0.01."""
     direct = models()["A_4-8"]
-    rough = [Specimen(s.seed, {k: t | {"roughness": t["roughness"] * s.seed + 0.01} for k, t in s.tests.items()}, 0, 0, 0, 0)
-             for s in direct.specimens]  # fmt: skip
-    even = [Specimen(s.seed, {k: t | {"roughness": t["roughness"] * s.seed} for k, t in s.tests.items()}, 0, 0, 0, 0)
-            for s in direct.specimens]  # fmt: skip
-    groups = [{"A_4-8": Group("A_4-8", direct.ensemble, some)} for some in (even, rough[1:])]
+    rough, even = (
+        [
+            specimen(s.seed, {k: t | {"roughness": t["roughness"] * s.seed + more} for k, t in s.tests.items()})
+            for s in direct.specimens
+        ]
+        for more in (0.01, 0.0)
+    )
+    groups = [{"A_4-8": Group("A_4-8", "", some)} for some in (even, rough[1:])]
     (found,) = of_the_laws(*groups)
     assert (found.verdict, found.effects[0].count) == (CONFIRMED, PER_BOX - 1)
     assert found.effects[0].value == pytest.approx(0.01)
@@ -136,7 +143,7 @@ def test_the_page_of_what_there_is(tmp_path: Path, monkeypatch: pytest.MonkeyPat
         write_specimen(tmp_path / "smooth" / "A_4-8" / f"seed_{seed}", "TypeA_10x5_4-8_1-circle_350", seed)
     write_specimen(tmp_path / "smooth" / "A_2-4" / "seed_1", "TypeA_10x5_2-4_1-circle_1500", 1)
     monkeypatch.setattr("paper_tools.study.print_page", lambda page: None)
-    report(tmp_path)
+    report(tmp_path, {})
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     for text in (
         "smooth: 3 of 82 specimens",
@@ -159,7 +166,95 @@ def test_the_page_of_what_there_is(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     found = json.loads((tmp_path / "findings.json").read_text(encoding="utf-8"))["smooth"]
     assert {one["verdict"] for one in found if one["claim"].startswith("Grains of three")} == {OPEN}
     lines = (tmp_path / "figures" / "fig03.csv").read_text(encoding="utf-8").splitlines()
-    assert lines[0].startswith("sigma_kPa,specimens,displacement_mm,tau_mean_kPa") and len(lines) > 200
+    assert lines[0].startswith("sigma_kPa,specimens,displacement_mm,tau_mean_kPa") and len(lines) == 1 + 2 * len(PLACES)
+
+
+def known(campaign: str, entry: str, seeds: Iterable[int], value: float = 1.0) -> dict[str, dict[str, list[Specimen]]]:
+    """Specimens with curves, in which every number is `value`."""
+    test, curves = dict.fromkeys(NUMBERS, value), {100.0: np.full((len(CURVES), len(PLACES)), value)}
+    every = [specimen(seed, {100.0: test, 200.0: test}, curves=curves | {200.0: curves[100.0]}) for seed in seeds]
+    return {campaign: {entry: every}}
+
+
+def test_a_record_is_read_as_it_was_written(tmp_path: Path) -> None:
+    judged: dict[str, bool | None] = dict(zip(JUDGED, (True, False, None)))
+    written = known("smooth", "A_4-8", [1, 7], np.pi) | known("friction", "single_0", [2])
+    written["smooth"]["A_4-8"][1] = replace(written["smooth"]["A_4-8"][1], holds=judged, hours=np.nan)
+    write_record(written, tmp_path)
+    read = read_record(tmp_path)
+    assert {name: list(entries) for name, entries in read.items()} == {"smooth": ["A_4-8"], "friction": ["single_0"]}
+    first, other = read["smooth"]["A_4-8"]
+    assert (first.seed, other.seed, first.phi, first.phi_plane) == (1, 7, 30, 29)
+    assert list(first.tests) == [100, 200]
+    for test in first.tests.values():
+        assert test == pytest.approx(dict.fromkeys(NUMBERS, np.pi), rel=1e-4)
+    assert first.curves[200.0] == pytest.approx(np.full((3, 79), np.pi), rel=1e-3)
+    assert other.holds == judged and np.isnan(other.hours) and first.hours == 0.5
+    assert not read["friction"]["single_0"][0].curves, "those of sweeps are drawn nowhere"
+
+
+def test_what_an_earlier_record_lacks_is_not_known(tmp_path: Path) -> None:
+    write_record(known("smooth", "A_4-8", [1]), tmp_path)
+    (tmp_path / "curves.csv").unlink()
+    table = tmp_path / "specimens.csv"
+    with table.open(encoding="utf-8", newline="") as stream:
+        rows = [
+            {k: v for k, v in row.items() if k not in ("plane_load", "hours", *JUDGED)}
+            for row in csv.DictReader(stream)
+        ]
+    with table.open("w", encoding="utf-8", newline="") as stream:
+        writer = csv.DictWriter(stream, list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)
+    (one,) = read_record(tmp_path)["smooth"]["A_4-8"]
+    assert one.curves == {} and set(one.holds.values()) == {None}
+    assert np.isnan(one.hours) and np.isnan(one.mean("plane_load")) and one.mean("peak") == 1
+
+
+def test_new_specimens_join_those_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Seeds 1 and 2 are new, 2 and 3 kept: three specimens, of which the second is the new one."""
+    for seed in (1, 2):
+        write_specimen(tmp_path / "smooth" / "A_4-8" / f"seed_{seed}", "TypeA_10x5_4-8_1-circle_350", seed)
+    monkeypatch.setattr("paper_tools.study.print_page", lambda page: None)
+    report(tmp_path, known("smooth", "A_4-8", [2, 3], 9.0))
+    every = read_record(tmp_path)["smooth"]["A_4-8"]
+    assert [one.seed for one in every] == [1, 2, 3]
+    assert [one.mean("peak") == 9 for one in every] == [False, False, True]
+    with (tmp_path / "figures" / "fig03.csv").open(encoding="utf-8") as stream:
+        row = [row for row in csv.DictReader(stream) if row["displacement_mm"] == "4"][0]
+    tau = [one.curves[100.0][0, list(np.round(PLACES, 1)).index(4.0)] for one in every]
+    assert float(row["tau_mean_kPa"]) == pytest.approx(np.mean(tau), rel=1e-3)
+    assert float(row["tau_standard_error_kPa"]) == pytest.approx(np.std(tau, ddof=1) / 3**0.5, rel=1e-2)
+    assert "smooth: 3 of 82 specimens" in (tmp_path / "page.html").read_text(encoding="utf-8")
+
+
+def test_what_is_kept_is_not_run_again() -> None:
+    runs = ["A_4-8", "B_4-8", "C_4-8", "D_4-8", "A_2-4"]  # 8, 8, 4, 2, 8 specimens
+    kept = {"A_4-8": range(1, 5), "B_4-8": range(1, 5), "D_4-8": range(1, 3), "A_2-4": [1, 3, 5, 7, 9]}
+    specimens = {"smooth": {run: known("smooth", run, seeds)["smooth"][run] for run, seeds in kept.items()}}
+    left = parts_left("smooth", runs, specimens)
+    assert left == [Part(["C_4-8"]), Part(["A_2-4"], [2, 4, 6, 8]), Part(["A_4-8", "B_4-8"], [5, 6, 7, 8])]
+    assert parts_left("smooth", ["D_4-8"], specimens) == []
+    assert parts_left("smooth", runs, {}) == [Part(runs)]
+
+
+def test_the_study_goes_on_from_what_is_kept(tmp_path: Path) -> None:
+    """Of four specimens one is left."""
+    kept, out = tmp_path / "kept", tmp_path / "out"
+    kept.mkdir()
+    write_record(known("smooth", "A_4-8", [1]) | known("friction", "single_0", [1, 2, 4]), kept)
+    words = [PAPER, "--out", out, "--with", kept, "--campaign", "friction", "--only", "single_0"]
+    engine = {"SHEARBOX_LMP": str(TESTS / "fake_engine.py"), "PATH": "/usr/bin:/bin"}
+    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=300, env=os.environ | engine)
+    assert done.returncode == 0, done.stderr
+    assert [path.name for path in (out / "friction" / "single_0").glob("seed_*")] == ["seed_3"]
+    assert [one.seed for one in read_record(out)["friction"]["single_0"]] == [1, 2, 3, 4]
+
+
+def test_no_record_is_said_so(tmp_path: Path) -> None:
+    words = [PAPER, "--out", tmp_path, "--with", tmp_path / "nothing", "--report"]
+    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=60)
+    assert done.returncode == 1 and f"{tmp_path / 'nothing' / 'specimens.csv'}: No such file" in done.stderr
 
 
 def test_nothing_to_tell(tmp_path: Path) -> None:

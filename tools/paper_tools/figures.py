@@ -12,13 +12,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from shearbox_tools.files import write_text
-from shearbox_tools.mean_curve import as_csv
+from shearbox_tools.mean_curve import Band, MeanCurve, as_csv, band_of
 from shearbox_tools.style import OTHER_LOOKS, RC, SIZE, Look, diagram, looks, name_stresses
 
 from .findings import BOXES, COARSE, FINE, FINEST, TRIPLE
-from .specimens import Group
+from .specimens import CURVES, PLACES, Group
 
-EVERY = 5  # row of a curve that is drawn
 SIZES = {COARSE: "4–8 mm", FINE: "2–4 mm", FINEST: "2 mm"}
 SHAPES = {COARSE: "single, 4–8 mm", FINE: "single, 2–4 mm", TRIPLE: "three discs of 2–4 mm"}
 _LOOKS = dict(zip((COARSE, FINE, FINEST, TRIPLE), OTHER_LOOKS))
@@ -46,33 +45,43 @@ def draw(groups: Groups, folder: Path) -> list[Picture]:
     """Those for which there are specimens, written into the folder."""
     folder.mkdir(parents=True, exist_ok=True)
     with rc_context(RC):
-        pictures = [_model(groups[name], NUMBER_OF[name], folder) for name in _PAPER_ORDER if name in groups]
+        drawn = {name: group for name, group in groups.items() if group.drawn}
+        pictures = [_model(drawn[name], NUMBER_OF[name], folder) for name in _PAPER_ORDER if name in drawn]
         pictures += [
             _strengths(groups, SIZES, 17, "Shear strength against normal stress, by size", folder),
             _strengths(groups, SHAPES, 18, "Shear strength against normal stress, by shape", folder),
-            _rotation(groups, SIZES, 19, "TRM, by size", folder),
-            _rotation(groups, SHAPES, 20, "TRM, by shape", folder),
+            _rotation(drawn, SIZES, 19, "TRM, by size", folder),
+            _rotation(drawn, SHAPES, 20, "TRM, by shape", folder),
         ]
     return pictures
 
 
 def _model(group: Group, number: int, folder: Path) -> Picture:
     """Shear stress and rise of the lid against the shear displacement."""
-    curves, parts = group.ensemble.curves, []
+    curves, parts = mean_curves(group), []
     for part, name in (("a", "shear stress τ (kPa)"), ("b", "vertical displacement, up (mm)")):
         figure, axes = diagram("horizontal displacement (mm)", name)
-        look = looks(list(curves))
-        for sigma, curve in curves.items():
+        look = looks([curve.sigma for curve in curves])
+        for curve in curves:
             band = curve.tau if part == "a" else curve.lid
-            s, mean, error = (values[::EVERY] for values in (curve.displacement, band.mean, band.error))
-            _with_error(axes, s, mean, error, look[sigma])
+            _with_error(axes, curve.displacement, band.mean, band.error, look[curve.sigma])
         axes.axhline(0, color="#8a929b", lw=0.8)
         axes.set_xlim(0, 8)
         name_stresses(axes, look)
         parts.append(_written(figure, folder / f"fig{number:02d}{part}.svg"))
-    table = folder / f"fig{number:02d}.csv"
-    write_text(table, as_csv(list(curves.values()), EVERY))
-    return Picture(number, f"{group.model}, mean of {len(group.specimens)}", parts, SIZE[0])
+    write_text(folder / f"fig{number:02d}.csv", as_csv(curves))
+    return Picture(number, f"{group.model}, mean of {len(group.drawn)}", parts, SIZE[0])
+
+
+def mean_curves(group: Group) -> list[MeanCurve]:
+    """Means over the specimens, a stress each, of what is known."""
+    curves = []
+    for sigma in group.stresses:
+        known = np.array([one.curves[sigma] for one in group.drawn if sigma in one.curves])
+        whole = np.all(np.isfinite(known), axis=(0, 1))  # places that all have reached
+        tau, lid = (band_of(known[:, CURVES.index(name), whole]) for name in ("tau_kPa", "lid_mm"))
+        curves.append(MeanCurve(sigma, len(known), PLACES[whole], tau, lid))
+    return curves
 
 
 def _with_error(
@@ -103,12 +112,14 @@ def _strengths(groups: Groups, kinds: Mapping[str, str], number: int, title: str
     for k, box in enumerate(boxes):
         for row, by in enumerate(("lid", "plane")):
             for kind in (kind for kind in kinds if f"{box}_{kind}" in groups):
-                sigma, tau, error = _points(groups[f"{box}_{kind}"], by)
+                if not (points := _points(groups[f"{box}_{kind}"], by)):
+                    continue
                 look = _LOOKS[kind]
-                axes[row, k].errorbar(sigma, tau, error, fmt=look.mark, color=look.colour, ls=look.dashes, lw=1.2, ms=4,
+                _, sigma, tau, error = np.array(points).T
+                bars = error if np.all(np.isfinite(error)) else None
+                axes[row, k].errorbar(sigma, tau, bars, fmt=look.mark, color=look.colour, ls=look.dashes, lw=1.2, ms=4,
                                       capsize=2, label=kinds[kind])  # fmt: skip
-                count = len(groups[f"{box}_{kind}"].specimens)
-                lines += [f"{box},{kind},{by},{count},{s:.8g},{t:.8g},{e:.8g}" for s, t, e in zip(sigma, tau, error)]
+                lines += [f"{box},{kind},{by},{n},{s:.8g},{t:.8g},{e:.8g}" for n, s, t, e in points]
         axes[1, k].set_xlabel("σ (kPa)")
     axes[1, 0].set_ylabel("the same on the shear plane (kPa)")
     axes[0, 0].set_xlim(left=0)
@@ -116,18 +127,22 @@ def _strengths(groups: Groups, kinds: Mapping[str, str], number: int, title: str
     return _finished(figure, axes, number, title, lines, folder)
 
 
-def _points(group: Group, by: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Mean normal and shear stress (kPa) at the peaks, and the standard error of the latter, by stress."""
+def _points(group: Group, by: str) -> list[tuple[int, float, float, float]]:
+    """How many specimens, mean normal and shear stress (kPa) at the peaks, and the standard error of the latter, by stress."""
     points = []
-    for shears in group.ensemble.shears.values():
-        planes = [shear.plane for shear in shears if shear.plane]
-        on_plane = [(plane.sigma_at_peak, plane.peak.value) for plane in planes]
-        both = [(s.sigma, s.peak.value) for s in shears] if by == "lid" else on_plane
-        sigma, tau = np.array(both).T
-        error = np.std(tau, ddof=1) / np.sqrt(len(tau)) if len(tau) > 1 else np.nan
-        points.append((np.mean(sigma), np.mean(tau), error))
-    sigma, tau, error = np.array(points).T
-    return sigma, tau, error
+    for sigma in group.stresses:
+        tests = [one.tests[sigma] for one in group.specimens if sigma in one.tests]
+        if by == "lid":
+            peaks = np.array([(sigma, sigma * test["peak"]) for test in tests])
+        else:
+            ratios = [(test["plane_load"], test["peak_plane"]) for test in tests]
+            peaks = np.array([(sigma * load, sigma * load * peak) for load, peak in ratios])
+        known = peaks[np.isfinite(peaks[:, 0])]
+        if count := len(known):
+            error = np.std(known[:, 1], ddof=1) / np.sqrt(count) if count > 1 else np.nan
+            load, tau = known.mean(axis=0)
+            points.append((count, float(load), float(tau), float(error)))
+    return points
 
 
 def _rotation(groups: Groups, kinds: Mapping[str, str], number: int, title: str, folder: Path) -> Picture:
@@ -137,11 +152,10 @@ def _rotation(groups: Groups, kinds: Mapping[str, str], number: int, title: str,
     for k, box in enumerate(boxes):
         for kind in (kind for kind in kinds if f"{box}_{kind}" in groups):
             group = groups[f"{box}_{kind}"]
-            s, value, error = _mean_trm(group)
-            _with_error(axes[0, k], s, value, error, _LOOKS[kind], kinds[kind])
-            lines += [
-                f"{box},{kind},{len(group.specimens)},{x:.6g},{y:.6g},{e:.6g}" for x, y, e in zip(s, value, error)
-            ]
+            trm = _mean_trm(group)
+            _with_error(axes[0, k], PLACES, trm.mean, trm.error, _LOOKS[kind], kinds[kind])
+            table = zip(PLACES, trm.mean, trm.error)
+            lines += [f"{box},{kind},{len(group.drawn)},{x:.6g},{y:.6g},{e:.6g}" for x, y, e in table]
         axes[0, k].set_xlabel("horizontal displacement (mm)")
     axes[0, 0].axhline(1, color="#8a929b", lw=0.8)
     axes[0, 0].set_xlim(0, 8)
@@ -149,14 +163,10 @@ def _rotation(groups: Groups, kinds: Mapping[str, str], number: int, title: str,
     return _finished(figure, axes, number, title, lines, folder)
 
 
-def _mean_trm(group: Group) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    s = np.linspace(0.2, 7.9, 78)
-    rows = np.array([
-        np.mean([np.interp(s, x.data["displacement_mm"], x.data["trm"]) for x in run.shears], axis=0)
-        for run in group.ensemble.specimens
-    ])  # fmt: skip
-    error = rows.std(axis=0, ddof=1) / np.sqrt(len(rows)) if len(rows) > 1 else np.full(len(s), np.nan)
-    return s, rows.mean(axis=0), error
+def _mean_trm(group: Group) -> Band:
+    """Over the specimens, of each the mean over its stresses."""
+    trm = CURVES.index("trm")
+    return band_of([np.mean([curves[trm] for curves in one.curves.values()], axis=0) for one in group.drawn])
 
 
 def _finished(figure: Figure, axes: np.ndarray, number: int, title: str, lines: Sequence[str], folder: Path) -> Picture:

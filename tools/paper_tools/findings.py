@@ -9,8 +9,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from shearbox_tools.ensemble_results import FEATURES, holds_in
-
 from .effects import (
     CONFIRMED,
     CONTRADICTED,
@@ -24,7 +22,7 @@ from .effects import (
     slope,
     unknown,
 )
-from .specimens import Group
+from .specimens import Group, Specimen
 
 BOXES = "ABCD"
 WIDTHS = {"A": 10, "B": 15, "C": 20, "D": 30}  # cm
@@ -67,7 +65,7 @@ def _features(groups: Groups) -> Finding:
     """All three features in all specimens, without Fig. 9's model; rows are the models."""
     rows = []
     for group in groups.values():
-        judged = [_all_features(group, k) for k in range(len(group.specimens))]
+        judged = [_all_features(one) for one in group.specimens]
         rows.append(share(group.name, sum(holds is True for holds in judged), sum(h is not None for h in judged)))
     counted = [row for row in rows if row.label != EXCEPTION and row.count]
     whole = share(
@@ -78,8 +76,8 @@ def _features(groups: Groups) -> Finding:
     return Finding("The three features are seen in every test but Fig. 9's", "①", rule, [whole, *rows], verdict)
 
 
-def _all_features(group: Group, k: int) -> bool | None:
-    holds = [holds_in(group.ensemble.specimens[k], name) for name in FEATURES[:3]]
+def _all_features(one: Specimen) -> bool | None:
+    holds = list(one.holds.values())
     return None if None in holds and False not in holds else all(holds)
 
 

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from shearbox_tools.campaign import read_timings
 from shearbox_tools.files import write_json, write_text
 from shearbox_tools.page import TEMPLATES, environment
 from shearbox_tools.page import number as number_of
@@ -19,7 +18,7 @@ from shearbox_tools.summary import plain
 
 from .effects import Effect, mean
 from .findings import Finding
-from .specimens import ANGLES, NUMBERS, STRENGTHS, Group
+from .specimens import ANGLES, Group
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 OF_MODELS = ["phi", "phi_plane", "c", "dilation_deg", "sharpness", "late_rate", "trm", "solid", "inertial"]
@@ -38,33 +37,17 @@ def table_3(group: Group) -> list[dict[str, float]]:
     """At the peak of each stress, in the mean over specimens: horizontal displacement (mm), normal and shear stress (kPa), and
     the angle (degrees) of their ratio."""
     rows = []
-    for sigma, shears in group.ensemble.shears.items():
-        tau = float(np.mean([shear.peak.value for shear in shears]))
-        place = float(np.mean([shear.peak.position for shear in shears]))
-        rows.append({"sigma": sigma, "s": place, "tau": tau, "angle": float(np.degrees(np.arctan(tau / sigma)))})
+    for sigma in group.stresses:
+        ratio, place = (float(np.mean(group.at(sigma, name))) for name in ("peak", "peak_mm"))
+        rows.append({"sigma": sigma, "s": place, "tau": ratio * sigma, "angle": float(np.degrees(np.arctan(ratio)))})
     return rows
 
 
-def core_hours(groups: Mapping[str, Group]) -> float:
-    """That all phases of all specimens have taken."""
-    runs = [run for group in groups.values() for run in group.ensemble.specimens]
-    return sum(sum(read_timings(run.folder).values()) for run in runs) / 3600
-
-
-def record(findings: Mapping[str, Sequence[Finding]], groups: Mapping[str, Mapping[str, Group]], out: Path) -> None:
-    """All numbers behind the page: findings.json, and specimens.csv with a row for each specimen and stress."""
+def write_findings(findings: Mapping[str, Sequence[Finding]], out: Path) -> None:
+    """findings.json."""
     write_json(
         out / "findings.json", plain({walls: [asdict(one) for one in found] for walls, found in findings.items()})
     )
-    lines = [",".join(["campaign", "entry", "seed", *STRENGTHS, "sigma_kPa", *NUMBERS])]
-    for campaign, some in groups.items():
-        for group in some.values():
-            for one in group.specimens:
-                strengths_of_one = [getattr(one, name) for name in STRENGTHS]
-                for sigma, test in one.tests.items():
-                    values = [*strengths_of_one, sigma, *(test[name] for name in NUMBERS)]
-                    lines.append(",".join([campaign, group.name, str(one.seed), *(f"{v:.5g}" for v in values)]))
-    write_text(out / "specimens.csv", "\n".join(lines) + "\n")
 
 
 def write_page(out: Path, **content: Any) -> Path:

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What each specimen of a campaign has measured: one number of each kind a test, and strengths over its stresses."""
+"""What each specimen of a campaign has measured: numbers and curves of each test, strengths and features over its stresses."""
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from shearbox_tools.campaign import read_timings
 from shearbox_tools.ensemble import lines_of
-from shearbox_tools.ensemble_results import Ensemble
+from shearbox_tools.ensemble_results import FEATURES, holds_in
 from shearbox_tools.features import steepest_dilatancy
 from shearbox_tools.reading import read_all, read_quietly
 from shearbox_tools.results import Results
@@ -24,6 +24,7 @@ NUMBERS = {
     "peak_mm": "shear displacement there, mm",
     "peak_smoothed": "greatest τ/σ of the smoothed data",
     "peak_plane": "greatest τ on the shear plane over σ there, polynomials",
+    "plane_load": "σ on the shear plane there, over the lid's",
     "mean": "mean τ over mean σ",
     "mean_plane": "the same on the shear plane",
     "end": "τ/σ in the last fifth",
@@ -43,9 +44,18 @@ NUMBERS = {
 }
 
 
+PLACES = np.linspace(0.1, 7.9, 79)  # of curves, shear displacements in mm
+CURVES = ("tau_kPa", "lid_mm", "trm")
+JUDGED = FEATURES[:3]  # what the paper says of every test
+
+
 @dataclass(frozen=True)
 class Specimen:
-    """One packing, sheared at several normal stresses (kPa); angles of its strength in degrees, cohesions in kPa."""
+    """One packing, sheared at several normal stresses (kPa); angles of its strength in degrees, cohesions in kPa.
+
+    `tests` are NUMBERS by stress, nan where one is not known, and `curves` those of CURVES (3, 79) at PLACES, where they are
+    known. `holds`: each of JUDGED; None, that it cannot be judged. `hours` are those that it took, nan if unknown.
+    """
 
     seed: int
     tests: dict[float, Numbers]
@@ -53,6 +63,9 @@ class Specimen:
     c: float
     phi_plane: float
     c_plane: float
+    curves: dict[float, np.ndarray]
+    holds: dict[str, bool | None]
+    hours: float
 
     def mean(self, name: str) -> float:
         """Of a number of NUMBERS, over the stresses; of a strength, itself."""
@@ -67,40 +80,40 @@ ANGLES = ("phi", "phi_plane")  # of slopes
 
 @dataclass(frozen=True)
 class Group:
-    """All specimens of an entry of a campaign that are complete."""
+    """The specimens of an entry of a campaign, in the order of their seeds."""
 
     name: str
-    ensemble: Ensemble
+    model: str
     specimens: list[Specimen]
-
-    @property
-    def model(self) -> str:
-        """Its name."""
-        return str(self.ensemble.identity["model"])
 
     def values(self, name: str) -> np.ndarray:
         """(specimens,) of a number of NUMBERS, in the mean over the stresses, or of a strength."""
         return np.array([specimen.mean(name) for specimen in self.specimens])
 
+    @property
+    def stresses(self) -> list[float]:
+        """kPa, in order."""
+        return sorted({sigma for one in self.specimens for sigma in one.tests})
 
-def read_groups(folder: Path) -> dict[str, Group]:
-    """By the names of the entries, in the order of the folder; what is not complete is left out."""
+    @property
+    def drawn(self) -> list[Specimen]:
+        """Specimens whose curves are known."""
+        return [one for one in self.specimens if one.curves]
+
+    def at(self, sigma: float, name: str) -> np.ndarray:
+        """(specimens,) of a number of NUMBERS, of the tests at one stress (kPa) in which it is known."""
+        values = np.array([one.tests[sigma][name] for one in self.specimens if sigma in one.tests])
+        return values[np.isfinite(values)]
+
+
+def read_specimens(folder: Path) -> dict[str, list[Specimen]]:
+    """Those below the folder of a campaign by the names of their entries; what is not complete is left out."""
     places = find_runs(folder) if folder.is_dir() else []
-    every = [
-        run for run in read_all(places, read_quietly)[0] if run.complete and run.knows_plane and len(run.shears) > 1
-    ]
-    return {name: _group(name, runs) for name, runs in _by_entry(folder, every).items()}
-
-
-def _by_entry(folder: Path, every: Iterable[Results]) -> dict[str, list[Results]]:
-    entries: dict[str, list[Results]] = {}
-    for results in every:
-        entries.setdefault(str(results.folder.relative_to(folder).parts[0]), []).append(results)
+    entries: dict[str, list[Specimen]] = {}
+    for run in read_all(places, read_quietly)[0]:
+        if run.complete and run.knows_plane and len(run.shears) > 1:
+            entries.setdefault(run.folder.relative_to(folder).parts[0], []).append(specimen(run))
     return entries
-
-
-def _group(name: str, runs: list[Results]) -> Group:
-    return Group(name, Ensemble(runs), [specimen(run) for run in runs])
 
 
 def specimen(results: Results) -> Specimen:
@@ -111,8 +124,23 @@ def specimen(results: Results) -> Specimen:
     sigma_plane, tau_plane = np.array([(plane.sigma_at_peak, plane.peak.value) for plane in planes]).T
     (slope, c), (slope_plane, c_plane) = lines_of(sigma, tau), lines_of(sigma_plane, tau_plane)
     phi, phi_plane = (float(np.degrees(np.arctan(s))) for s in (slope, slope_plane))
-    tests = {shear.sigma: numbers(shear, results.consolidations[shear.sigma]) for shear in results.shears}
-    return Specimen(int(results.identity["seed"]), tests, phi, float(c), phi_plane, float(c_plane))
+    return Specimen(
+        seed=int(results.identity["seed"]),
+        tests={shear.sigma: numbers(shear, results.consolidations[shear.sigma]) for shear in results.shears},
+        phi=phi,
+        c=float(c),
+        phi_plane=phi_plane,
+        c_plane=float(c_plane),
+        curves={shear.sigma: curves(shear) for shear in results.shears},
+        holds={name: holds_in(results, name) for name in JUDGED},
+        hours=sum(read_timings(results.folder).values()) / 3600,
+    )
+
+
+def curves(shear: Shear) -> np.ndarray:
+    """(3, 79): CURVES at PLACES; nan beyond the travel."""
+    s = shear.data["displacement_mm"]
+    return np.array([np.interp(PLACES, s, shear.data[name], np.nan, np.nan) for name in CURVES])
 
 
 def numbers(shear: Shear, bed: Numbers) -> Numbers:
@@ -129,6 +157,7 @@ def numbers(shear: Shear, bed: Numbers) -> Numbers:
         "peak_mm": shear.peak.position,
         "peak_smoothed": shear.smoothed.value / shear.sigma,
         "peak_plane": plane.peak.value / plane.sigma_at_peak,
+        "plane_load": plane.sigma_at_peak / shear.sigma,
         "mean": float(np.mean(rows["tau_kPa"]) / lid),
         "mean_plane": float(np.mean(rows["plane_tau_kPa"]) / np.mean(rows["plane_kPa"])),
         "end": shear.at_end.ratio,

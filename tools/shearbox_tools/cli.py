@@ -166,9 +166,9 @@ def _add_options_of_a_run(run: argparse.ArgumentParser) -> None:
     run.add_argument("--speed", metavar="V", type=float, help="shear speed, mm/s (default: that of --accuracy)")
     run.add_argument("--travel", metavar="S", type=float, help="shear displacement at the end, mm (default: 8)")
     run.add_argument("--seed", metavar="N", type=int, help="seed of the packing (default: 1)")
-    run.add_argument("--seeds", metavar="N", type=int, nargs="+", action="extend",
-                     help="several specimens: one number is how many, with seeds from 1 on; several are their seeds. Each is "
-                     "a run of its own, in DIR/seed_N")  # fmt: skip
+    run.add_argument("--seeds", metavar="N", type=_seeds, nargs="+", action="extend",
+                     help="several specimens: one number is how many, with seeds from 1 on; several, or ranges such as 4-8, are "
+                     "their seeds. Each is a run of its own, in DIR/seed_N")  # fmt: skip
     run.add_argument("--independent", action="store_true",
                      help="with --seeds: a packing of its own for each stress, in DIR/seed_N_KPAkPa; its seed is 1000000 N + "
                      "100 KPA")  # fmt: skip
@@ -191,6 +191,14 @@ def _stress(text: str) -> float:
     except ValueError:
         hint = " Between stresses are blanks: --stress 100 200" if "," in text else ""
         raise argparse.ArgumentTypeError(f"{text!r} is not a number of kPa.{hint}") from None
+
+
+def _seeds(text: str) -> int | range:
+    first, dash, last = text.partition("-")
+    try:
+        return range(int(first), int(last) + 1) if first and dash else int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r}: a number, or a range such as 4-8, is expected") from None
 
 
 def _speed(text: str) -> float:

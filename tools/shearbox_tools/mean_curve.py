@@ -61,7 +61,7 @@ def average(shears: Sequence[Shear]) -> MeanCurve:
     start = max(curve["displacement_mm"][0] for curve in curves)
     end = min(curve["displacement_mm"][-1] for curve in curves)
     s = np.linspace(start, end, min(len(curve["displacement_mm"]) for curve in curves))
-    tau, lid = (_band([np.interp(s, c["displacement_mm"], c[name]) for c in curves]) for name in NAMES[1:])
+    tau, lid = (band_of([np.interp(s, c["displacement_mm"], c[name]) for c in curves]) for name in NAMES[1:])
     return MeanCurve(shears[0].sigma, len(shears), s, tau, lid)
 
 
@@ -83,7 +83,8 @@ def as_csv(curves: Sequence[MeanCurve], every: int = 1) -> str:
     return text.getvalue()
 
 
-def _band(rows: list[np.ndarray]) -> Band:
+def band_of(rows: Sequence[np.ndarray] | np.ndarray) -> Band:
+    """Of the curves of specimens at the same places."""
     values = np.array(rows)
     count = len(values)
     deviation = values.std(axis=0, ddof=1) if count > 1 else np.full(values.shape[1], np.nan)

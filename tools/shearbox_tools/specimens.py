@@ -48,10 +48,13 @@ def own_seed(seed: int, sigma: float) -> int:
     return 1_000_000 * seed + round(100 * sigma)
 
 
-def read_seeds(given: list[int], independent: bool, stresses: Iterable[float]) -> list[int]:
-    """One number is how many, from 1 on; several are the seeds themselves. Refuses what cannot be meant."""
-    text = f"--seeds {' '.join(map(str, given))}"
-    seeds = list(range(1, given[0] + 1)) if len(given) == 1 else given
+def read_seeds(given: list[int | range], independent: bool, stresses: Iterable[float]) -> list[int]:
+    """One number is how many, from 1 on; several, or ranges, are the seeds themselves. Refuses what cannot be meant."""
+    text = f"--seeds {' '.join(map(_as_given, given))}"
+    ranges = [one if isinstance(one, range) else range(one, one + 1) for one in given]
+    seeds = [seed for some in ranges for seed in some]
+    if len(given) == 1 and isinstance(given[0], int):
+        seeds = list(range(1, given[0] + 1))
     if not 1 <= len(seeds) <= MOST_SEEDS:
         raise InputError(f"{text}: 1 to {MOST_SEEDS} specimens are expected")
     if len(set(seeds)) < len(seeds):
@@ -62,6 +65,10 @@ def read_seeds(given: list[int], independent: bool, stresses: Iterable[float]) -
         if independent and round(sigma, 2) != sigma:
             raise InputError(f"--stress {sigma:g}: with --independent, at most two decimals are expected")
     return seeds
+
+
+def _as_given(seeds: int | range) -> str:
+    return f"{seeds.start}-{seeds.stop - 1}" if isinstance(seeds, range) else str(seeds)
 
 
 def find_runs(folder: Path, marks: tuple[str, ...] = (RECORD,)) -> list[Path]:
