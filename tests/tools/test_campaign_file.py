@@ -112,6 +112,10 @@ def test_a_model_file_lies_beside_the_campaign(tmp_path: Path) -> None:
             "[runs.report.html]: files and folders of reports and jobs have such",
         ),
         (f'[runs.jobs]\nmodel = "{MODEL}"', "[runs.jobs]: files and folders of reports and jobs have such names"),
+        (
+            f'[all]\nmodel = "{MODEL}"\nset = {{ sides = "discs" }}\n[runs.a]\n[runs.b]\nhost = "liggghts"',
+            "--host: lammps and liggghts are asked for, one for all runs is expected",
+        ),
         (f'[runs.a]\nmodel = "{MODEL}"\nseed = 2\nseeds = 3', "--seeds: --seed is given, too"),
     ],
 )

@@ -7,6 +7,7 @@ import os
 import random
 import shutil
 import signal
+import struct
 import subprocess
 import time
 from collections.abc import Callable
@@ -23,7 +24,7 @@ from shearbox_tools.phases import Phase, all_phases, left_to_do, rows_of_shear, 
 from shearbox_tools.readers import BED, read_shear
 from shearbox_tools.repair import make_ready
 from shearbox_tools.request import Request, check_folder, open_folder, read_record
-from shearbox_tools.restarts import step_of
+from shearbox_tools.restarts import is_whole, step_of
 from shearbox_tools.results import read_results
 from shearbox_tools.seals import Seal, look_at, refuse_altered, seal
 
@@ -244,7 +245,19 @@ def test_a_restart_file_is_known_by_its_ends(tmp_path: Path) -> None:
         path.write_bytes(whole[:k])
         assert step_of(path) is None
     path.write_bytes(whole[:16] + bytes(4096) + whole[-16:])
-    assert step_of(path) is None
+    assert step_of(path) is None and not is_whole(path)
+    path.write_bytes(whole)
+    assert is_whole(path)
+
+
+def test_one_of_liggghts_is_known_by_its_beginning(tmp_path: Path) -> None:
+    path = tmp_path / "x.restart"
+    path.write_bytes(
+        struct.pack("=ii", 0, 90) + b"Version LIGGGHTS-PUBLIC 3.8.0, compiled 2022".ljust(90, b"\0") + bytes(64)
+    )
+    assert is_whole(path) and step_of(path) is None
+    path.write_bytes(path.read_bytes()[:12])
+    assert not is_whole(path)
 
 
 def test_seals_are_those_of_sha256sum(tmp_path: Path) -> None:

@@ -3,7 +3,7 @@
 
 import csv
 import json
-import os
+import runpy
 import subprocess
 from collections.abc import Iterable
 from dataclasses import replace
@@ -238,17 +238,32 @@ def test_what_is_kept_is_not_run_again() -> None:
     assert parts_left("smooth", runs, {}) == [Part(runs)]
 
 
-def test_the_study_goes_on_from_what_is_kept(tmp_path: Path) -> None:
-    """Of four specimens one is left."""
-    kept, out = tmp_path / "kept", tmp_path / "out"
+def test_the_study_goes_on_from_what_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of four specimens one is left: it alone is asked for."""
+    kept, out, asked = tmp_path / "kept", tmp_path / "out", list[list[str]]()
     kept.mkdir()
     write_record(known("smooth", "A_4-8", [1]) | known("friction", "single_0", [1, 2, 4]), kept)
-    words = [PAPER, "--out", out, "--with", kept, "--campaign", "friction", "--only", "single_0"]
-    engine = {"SHEARBOX_LMP": str(TESTS / "fake_engine.py"), "PATH": "/usr/bin:/bin"}
-    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=300, env=os.environ | engine)
-    assert done.returncode == 0, done.stderr
-    assert [path.name for path in (out / "friction" / "single_0").glob("seed_*")] == ["seed_3"]
-    assert [one.seed for one in read_record(out)["friction"]["single_0"]] == [1, 2, 3, 4]
+    words = [str(PAPER), "--out", str(out), "--with", str(kept), "--campaign", "friction", "--only", "single_0"]
+    monkeypatch.setattr("sys.argv", words)
+    monkeypatch.setattr("subprocess.run", lambda command, check: asked.append(command))
+    monkeypatch.setattr("paper_tools.study.print_page", lambda page: None)
+    with pytest.raises(SystemExit) as end:
+        runpy.run_path(str(PAPER), run_name="__main__")
+    assert end.value.code == 0
+    assert [command[2:] for command in asked] == [
+        [
+            str(campaign_file("friction")),
+            "--out",
+            str(out / "friction"),
+            "--jobs",
+            "2",
+            "--only",
+            "single_0",
+            "--seeds",
+            "3-3",
+        ]
+    ]
+    assert [one.seed for one in read_record(out)["friction"]["single_0"]] == [1, 2, 4]
 
 
 def test_no_record_is_said_so(tmp_path: Path) -> None:

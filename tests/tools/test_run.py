@@ -273,6 +273,12 @@ def test_accuracy_and_stiffness_reach_the_decks(folder):
 
 REFUSED = [
     (["--stress", "0"], "--stress 0: a stress above 0 kPa"),
+    (["--host", "liggghts"], "--host liggghts: sides is smooth; only sides=discs is possible there"),
+    (
+        ["--host", "liggghts", "--set", "sides=discs", "phi_packing=45"],
+        "phi_packing is 45; only phi_packing=0 is possible",
+    ),
+    (["--host", "liggghts", "--set", "sides=discs", "frames=5"], "frames is 5; only frames=100 is possible there"),
     (["--stress", "-100"], "--stress -100: a stress above 0 kPa"),
     (["--stress", "nan"], "--stress nan: a stress above 0 kPa"),
     (["--stress", "100000"], "100000 Pa would be 100"),

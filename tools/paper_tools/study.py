@@ -62,6 +62,7 @@ def report(folder: Path, kept: Campaigns) -> Path:
     campaigns = {name: _together(read_specimens(folder / name), kept.get(name, {})) for name in CAMPAIGNS}
     if not campaigns["smooth"]:
         raise ShearboxError(f"{folder / 'smooth'}: no specimen of the models is complete yet")
+    folder.mkdir(parents=True, exist_ok=True)
     groups = {name: _groups(name, entries) for name, entries in campaigns.items()}
     smooth = groups["smooth"]
     found = {walls: findings(groups[walls]) for walls in WALLS if groups[walls]}

@@ -4,9 +4,10 @@
 import math
 
 from .errors import InputError
+from .hosts import HOSTS
 from .models import PARAMETERS, Model, read_variables
 from .numerals import number
-from .parameters import parameters
+from .parameters import canonical, parameters
 from .presets import STRESSES
 from .request import OWN_OPTION, Request
 
@@ -17,7 +18,7 @@ LOWEST, HIGHEST = 1.2, 2.4
 def check(request: Request) -> None:
     """Refuse values that cannot be meant; all of them are named at once."""
     of_decks = [*_deck_problems(request.settings), *_model_problems(request.model)]
-    problems = [*of_decks, *_stress_problems(request.stresses), *_option_problems(request)]
+    problems = [*of_decks, *_stress_problems(request.stresses), *_option_problems(request), *_host_problems(request)]
     if not of_decks:
         problems += _shear_problems(request)
     if problems:
@@ -43,6 +44,16 @@ def _option_problems(request: Request) -> list[str]:
     for name in ("speed", "travel", "stiffness"):
         problems += _digit_problems(f"--{name}", getattr(request, name))
     return problems
+
+
+def _host_problems(request: Request) -> list[str]:
+    """Values of variables that the host's decks do not have."""
+    there = read_variables(PARAMETERS) | {"shape": request.model.shape} | request.settings
+    return [
+        f"--host {request.host}: {name} is {there[name]}; only {name}={value} is possible there"
+        for name, value in HOSTS[request.host].fixed.items()
+        if canonical(there[name]) != canonical(value)
+    ]
 
 
 def _model_problems(model: Model) -> list[str]:

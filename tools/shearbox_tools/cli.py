@@ -14,7 +14,7 @@ from typing import Any
 
 from . import __version__
 from .errors import InputError, ShearboxError
-from .presets import COLOURINGS, DENSITIES, FILMS, FORM, FORMATS, LAWS, PACKING_FRICTION, REFERENCE, SPEEDS
+from .presets import COLOURINGS, DENSITIES, FILMS, FORM, FORMATS, HOSTS, LAWS, PACKING_FRICTION, REFERENCE, SPEEDS
 
 Commands = argparse._SubParsersAction  # argparse has no public name for it
 DEPENDENCIES = {"numpy": "python3-numpy", "scipy": "python3-scipy", "matplotlib": "python3-matplotlib",
@@ -146,7 +146,9 @@ def _add_what_to_run(run: argparse.ArgumentParser) -> None:
     )
     run.add_argument("--only", metavar="NAME", nargs="+", action="extend", help="of a campaign file: these runs alone")
     run.add_argument("--ranks", metavar="N", type=int, default=1, help="MPI ranks of each phase (default: 1)")
-    run.add_argument("--engine", metavar="FILE", type=Path, help="engine (default: lmp_cdem of this Shearbox)")
+    run.add_argument(
+        "--engine", metavar="FILE", type=Path, help="engine (default: lmp_cdem of this Shearbox, or liggghts)"
+    )
     run.add_argument("--dry-run", action="store_true", default=False,
                      help="only say what would run, about how long, and how much it would write; of 'submit': the scripts")  # fmt: skip
 
@@ -175,6 +177,9 @@ def _add_options_of_a_run(run: argparse.ArgumentParser) -> None:
     run.add_argument("--density", choices=list(DENSITIES),
                      help=f"chooses {PACKING_FRICTION}, the friction angle while grains are packed: "
                      + ", ".join(f"{name} {angle:g}°" for name, angle in DENSITIES.items()) + " (default: dense)")  # fmt: skip
+    run.add_argument("--host", choices=HOSTS,
+                     help=f"program that carries the tests out (default: {HOSTS[0]}); LIGGGHTS has discs only, as grains and as "
+                     "sides, so --set sides=discs is needed, and writes no frames")  # fmt: skip
     run.add_argument("--law", choices=LAWS, help=f"contact law (default: {LAWS[0]})")
     run.add_argument("--dt", metavar="DT",
                      help="time step, s (default: auto, from the stability limit of the contacts)")  # fmt: skip

@@ -129,11 +129,15 @@ def _summary(members: Sequence[Member], comparison: Comparison, left_out: Sequen
 
 def _totals(ensemble: Ensemble) -> dict[str, int | None]:
     shears = [shear for of_stress in ensemble.shears.values() for shear in of_stress]
-    lost = [shear.lost for shear in shears if shear.lost is not None]
     return {
-        "grains_lost": sum(lost) if len(lost) == len(shears) else None,
-        "dangerous_builds": sum(shear.dangerous_builds for shear in shears),
+        "grains_lost": _sum_of_known([shear.lost for shear in shears]),
+        "dangerous_builds": _sum_of_known([shear.dangerous_builds for shear in shears]),
     }
+
+
+def _sum_of_known(counts: list[int | None]) -> int | None:
+    known = [count for count in counts if count is not None]
+    return sum(known) if len(known) == len(counts) else None
 
 
 def _quantity(quantity: Quantity) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Starting, stopping and questioning the engine, lmp_cdem."""
+"""Starting, stopping and questioning the engine, lmp_cdem or LIGGGHTS."""
 
 import ctypes
 import os
@@ -11,11 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from .errors import InputError
-from .models import ROOT
+from .hosts import PROGRAM, words_before
 from .phases import Phase
 
-# In the repository ROOT is where it is built; installed below a prefix, ROOT is <prefix>/share/shearbox.
-PROGRAM = ROOT / "build" / "lmp_cdem" if (ROOT / "CMakeLists.txt").exists() else ROOT.parents[1] / "bin" / "lmp_cdem"
 SECONDS_TO_STOP = 10.0
 LEAST_FREE_BYTES = 20_000_000
 # mpirun tells a signal of a rank as a status of 128 and more
@@ -35,7 +33,7 @@ class Engine:
     def check(self) -> None:
         """Refuse to begin without a program that can be started."""
         if not (self.program.is_file() and os.access(self.program, os.X_OK)):
-            remedy = "tools/setup builds it, cmake --install copies it into a prefix"
+            remedy = "tools/setup builds lmp_cdem, cmake --install copies it into a prefix; LIGGGHTS is Debian's package liggghts"
             raise InputError(f"the engine {self.program} is not there or cannot be run: {remedy}")
         if self.ranks > 1 and shutil.which("mpirun") is None:
             raise InputError(f"--ranks {self.ranks}: there is no mpirun (Debian: apt-get install openmpi-bin)")
@@ -44,7 +42,16 @@ class Engine:
         """The command line; variables in the order of the phase."""
         mpi = ["mpirun", "-np", str(self.ranks), "--oversubscribe", "--bind-to", "none"] if self.ranks > 1 else []
         variables = [word for name, value in phase.variables.items() for word in ("-var", name, value)]
-        return [*mpi, str(self.program), "-in", str(phase.deck), "-log", str(phase.log.name), *variables]
+        return [
+            *mpi,
+            *words_before(phase.host),
+            str(self.program),
+            "-in",
+            str(phase.deck),
+            "-log",
+            str(phase.log.name),
+            *variables,
+        ]
 
     def start(self, phase: Phase, lock: int) -> subprocess.Popen[bytes]:
         """Start a phase in its folder, in a process group of its own: the terminal's Ctrl-C does not reach it.

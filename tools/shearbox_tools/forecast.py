@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from .display import duration
+from .hosts import HOSTS
 from .logs import read_logs
 from .models import PARAMETERS, read_variables
 from .numerals import number
@@ -33,7 +34,7 @@ class Forecast:
         self._shearing = [phase for sigma in request.stresses for phase in shearing(folder, request, sigma)]
         self._dt = time_step(request)
         self._discs = request.model.ngrains * request.model.discs
-        self._slowness = (self._recorded_pace() or SECONDS[PACK]) / SECONDS[PACK]
+        self._slowness = (self._recorded_pace() or HOSTS[request.host].slowness * SECONDS[PACK]) / SECONDS[PACK]
 
     @property
     def head(self) -> str:

@@ -7,15 +7,18 @@ from pathlib import Path
 
 _NUMBER = r"\d{1,15}(?:\.\d*)?(?:e[-+]?\d\d)?"
 _LOOP = re.compile(rf"^Loop time of ({_NUMBER}) on \d+ procs for (\d{{1,18}}) steps", re.MULTILINE)
-# "Other" has its mean in the next column, and is not looked for
-_SHARE = re.compile(rf"^(Pair|Neigh|Comm|Output|Modify)\s*\|[^|]*\|\s*({_NUMBER})\s*\|", re.MULTILINE)
+# "Other" has its mean in the next column, and is not looked for; the second form is LIGGGHTS's
+_LIGGGHTS = r"^LIGGGHTS \(Version LIGGGHTS-PUBLIC ([^,]*),"
+_SHARE = re.compile(
+    rf"^(Pair|Neigh|Comm|Output|Modify)\s*(?:\|[^|]*\||time \(%\) =)\s*({_NUMBER})\s*[|(]", re.MULTILINE
+)
 
 
 @dataclass
 class Log:
     """Versions, and seconds of the runs in it; an unreadable log has neither."""
 
-    lammps: str | None = None
+    host: str | None = None  # of LAMMPS or LIGGGHTS
     shearbox: str | None = None
     steps: int = 0
     seconds: float = 0.0
@@ -36,7 +39,7 @@ def read_log(path: Path) -> Log:
         text = path.read_text(encoding="utf-8", errors="replace")
     except OSError:
         return Log()
-    log = Log(_first(r"^LAMMPS \(([^)]*)\)", text), _first(r"^Shearbox (.*)$", text))
+    log = Log(_first(r"^LAMMPS \(([^)]*)\)", text) or _first(_LIGGGHTS, text), _first(r"^Shearbox (.*)$", text))
     for seconds, steps in _LOOP.findall(text):
         log.seconds += float(seconds)
         log.steps += int(steps)

@@ -10,11 +10,13 @@ from pathlib import Path
 from .errors import InputError, ShearboxError
 from .files import CONSOLIDATED_RESTART, CONSOLIDATED_TABLE, DUMPS, PACKED, PACKED_RESTART, PACKED_TABLE
 from .files import SHEAR_RESTARTS, SHEAR_TABLE, SHEARED_RESTART, log_file, stress_folder
+from .hosts import HOSTS
 from .models import INPUT, PARAMETERS, read_variables
 from .numerals import number
+from .presets import LAMMPS
 from .readers import last_value, read_row, read_shear
 from .request import Request
-from .restarts import step_of
+from .restarts import is_whole
 from .seals import Seal, look_at, seal, unseal
 
 DECKS = PACK, CONSOLIDATE, SHEAR = "pack", "consolidate", "shear"
@@ -32,6 +34,7 @@ class Phase:
     restart: str
     frames: tuple[str, ...] = ()
     sigma: float | None = None  # kPa
+    host: str = LAMMPS
 
     @property
     def label(self) -> str:
@@ -41,7 +44,7 @@ class Phase:
     @property
     def deck(self) -> Path:
         """The input file of the engine."""
-        return deck(self.name)
+        return HOSTS[self.host].decks / f"{self.name}.in"
 
     @property
     def log(self) -> Path:
@@ -60,10 +63,10 @@ class Phase:
         Neither alone is enough: a full disk loses the last lines.
         """
         try:
-            goodbye = b"\nTotal wall time:" in self.log.read_bytes()
+            goodbye = b"\n" + HOSTS[self.host].goodbye in self.log.read_bytes()
         except OSError:
             return False
-        return goodbye and step_of(self.folder / self.restart) is not None and self._is_whole()
+        return goodbye and is_whole(self.folder / self.restart) and self._is_whole()
 
     @property
     def done(self) -> bool:
@@ -86,11 +89,11 @@ class Phase:
     def leads_on(self) -> bool:
         """Whether the next phase can begin with its restart file."""
         path = self.folder / self.restart
-        return look_at(path) is Seal.INTACT or (look_at(path) is Seal.UNKNOWN and step_of(path) is not None)
+        return look_at(path) is Seal.INTACT or (look_at(path) is Seal.UNKNOWN and is_whole(path))
 
     def seal(self) -> None:
         """Seal what there is while no engine runs, at its end or where it was stopped."""
-        restarts = [n for n in (self.restart, *self.checkpoints) if step_of(self.folder / n) is not None]
+        restarts = [n for n in (self.restart, *self.checkpoints) if is_whole(self.folder / n)]
         seal(self.folder, [self.product, *self.frames, *restarts])
 
     def unseal(self) -> None:
@@ -101,21 +104,17 @@ class Phase:
     @property
     def checkpoints(self) -> tuple[str, ...]:
         """Restart files that it writes in turn while it runs."""
-        return SHEAR_RESTARTS if self.name == SHEAR else ()
+        return SHEAR_RESTARTS if (self.name, self.host) == (SHEAR, LAMMPS) else ()
 
     def displacement(self) -> float:
         """Shear displacement (mm) reached so far, from the last whole row of shear.dat; 0 when there is none."""
         return last_value(self.folder / SHEAR_TABLE, "displacement_mm") or 0.0
 
 
-def deck(name: str) -> Path:
-    """The input file of that name."""
-    return INPUT / f"{name}.in"
-
-
 def packing(folder: Path, request: Request) -> Phase:
     """The phase that all stresses share."""
-    return Phase(PACK, folder / PACKED, _common(request, folder / PACKED), PACKED_TABLE, PACKED_RESTART)
+    place = folder / PACKED
+    return Phase(PACK, place, _common(request, place), PACKED_TABLE, PACKED_RESTART, host=request.host)
 
 
 def shearing(folder: Path, request: Request, sigma: float) -> list[Phase]:
@@ -124,9 +123,11 @@ def shearing(folder: Path, request: Request, sigma: float) -> list[Phase]:
     common = {**_common(request, place), "sigma": f"{sigma:g}"}
     packed = os.path.relpath(folder / PACKED / PACKED_RESTART, place)  # no blank, whatever the folder's name
     shear = {"speed": f"{request.speed:g}", "travel": f"{request.travel:g}"}
+    dumps = DUMPS if request.host == LAMMPS else ()
+    consolidate = {**common, "packed": packed}
     return [
-        Phase(CONSOLIDATE, place, {**common, "packed": packed}, CONSOLIDATED_TABLE, CONSOLIDATED_RESTART, sigma=sigma),
-        Phase(SHEAR, place, {**common, **shear}, SHEAR_TABLE, SHEARED_RESTART, DUMPS, sigma),
+        Phase(CONSOLIDATE, place, consolidate, CONSOLIDATED_TABLE, CONSOLIDATED_RESTART, (), sigma, request.host),
+        Phase(SHEAR, place, {**common, **shear}, SHEAR_TABLE, SHEARED_RESTART, dumps, sigma, request.host),
     ]
 
 
@@ -154,7 +155,7 @@ def left_to_do(folder: Path, request: Request) -> tuple[list[Phase], list[list[P
 
 def rows_of_shear() -> int:
     """Rows of a shear.dat that is complete."""
-    return int(read_variables(deck(SHEAR))["rows"])
+    return int(read_variables(INPUT / f"{SHEAR}.in")["rows"])
 
 
 def frames_of(settings: Mapping[str, str]) -> int:
@@ -168,32 +169,42 @@ def steps_between_frames(settings: Mapping[str, str], steps_between_rows: int) -
 
 
 def disk_need(request: Request, folder: Path) -> int:
-    """Bytes that the phases not yet done will write, roughly."""
+    """Bytes of frames that the phases not yet done will write, roughly."""
+    if request.host != LAMMPS:
+        return 0
     frames = 1 + frames_of(request.settings)
     left = [chain for chain in left_to_do(folder, request)[1] if chain[-1].name == SHEAR]
     return int(len(left) * request.model.ngrains * request.model.discs * BYTES_PER_FRAME_AND_DISC * frames)
 
 
 def _common(request: Request, place: Path) -> dict[str, str]:
-    return {
+    common = {
         "model": request.model.name,
-        "models": _models_from(place, request.model.path),
+        "models": _folder_from(place, request.model.path.parent, f"model {request.model.path}"),
         "seed": str(request.seed),
         "law": request.law,
         "dt": request.dt,
         "stiffness": f"{request.stiffness:g}",
         **request.settings,
     }
+    if request.host == LAMMPS:  # lmp_cdem knows where its decks are
+        return common
+    decks = HOSTS[request.host].decks
+    return {
+        **common,
+        "decks": _folder_from(place, decks, str(decks)),
+        "dt": "0" if request.dt == "auto" else request.dt,
+    }
 
 
-def _models_from(place: Path, model: Path) -> str:
-    """The folder of a model as decks can include it from there: LAMMPS takes no blanks, but from there may be none."""
-    folder = str(model.parent.resolve())
-    if _has_blank(folder):
-        folder = os.path.relpath(folder, place.resolve())
-    if _has_blank(folder + model.name):
-        raise InputError(f"model {model}: LAMMPS cannot include a file with a blank in its name or that of its folder")
-    return folder
+def _folder_from(place: Path, folder: Path, what: str) -> str:
+    """A folder as decks can include from there: LAMMPS takes no blanks, but from there may be none."""
+    name = str(folder.resolve())
+    if _has_blank(name):
+        name = os.path.relpath(name, place.resolve())
+    if _has_blank(name):
+        raise InputError(f"{what}: LAMMPS cannot include a file with a blank in its name or that of its folder")
+    return name
 
 
 def _has_blank(text: str) -> bool:

@@ -5,6 +5,7 @@
 Error and time of --accuracy are measured by tests/benchmarks/work_precision, what --density makes by tests/validation/packing.
 """
 
+HOSTS = LAMMPS, LIGGGHTS = "lammps", "liggghts"
 LAWS = ("direct", "incremental")  # of pair style cdem
 
 REFERENCE = "reference"

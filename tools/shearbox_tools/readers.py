@@ -20,7 +20,6 @@ NEEDED = (
     "sigma_kPa",
     "lid_mm",
     "trm",
-    "dangerous",
     "work_J",
     "residual_J",
 )  # columns of shear.dat that the report is made of; all that there are go into its curves

@@ -12,7 +12,7 @@ from .errors import InputError, ShearboxError
 from .files import DRAFT, LOCK, PACKED, RECORD, write_json, write_text
 from .models import PARAMETERS, Model, find_model, read_variables
 from .parameters import canonical, of_model, parameters
-from .presets import STRESSES
+from .presets import HOSTS, LAMMPS, STRESSES
 
 OWN_OPTION = {name: f"--{name}" for name in ("seed", "law", "dt", "stiffness")}  # of variables of parameters.in
 _REMEDY = "Put back a copy of it, or run in another folder"
@@ -39,6 +39,7 @@ class Request:
     dt: str = "auto"
     stiffness: float = 1.0
     settings: dict[str, str] = field(default_factory=dict)
+    host: str = LAMMPS
 
     def identity(self, of_file: dict[str, str]) -> dict[str, Any]:
         """Everything the results depend on, less the stresses, each of which has a folder of its own."""
@@ -51,6 +52,7 @@ class Request:
             "law": self.law,
             "dt": self.dt,
             "stiffness": self.stiffness,
+            **({"host": self.host} if self.host != LAMMPS else {}),
             "parameters": of_file | {name: value for name, value in self.settings.items() if name in of_file},
         }
 
@@ -124,6 +126,7 @@ def recorded(folder: Path) -> Request:
         dt=identity["dt"],
         stiffness=identity["stiffness"],
         settings=settings,
+        host=identity.get("host", LAMMPS),
     )
 
 
@@ -163,6 +166,8 @@ def _damage(record: Any) -> str | None:
         value = identity.get(name)
         if not isinstance(value, kind) or isinstance(value, bool) or (isinstance(value, (int, float)) and value <= 0):
             return f"identity: {name}: {value!r}"
+    if identity.get("host", LAMMPS) not in HOSTS:
+        return f"identity: host: {identity['host']!r}"
     values = [value for name, value in identity.items() if name != "parameters"]
     values += [*identity["parameters"].values(), record.get("model_file", "")]
     for value in values:

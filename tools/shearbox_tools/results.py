@@ -18,6 +18,7 @@ from .peak import Peak
 from .phases import rows_of_shear
 from .plane import line_on_plane
 from .polynomial import FEWEST_ROWS
+from .presets import LAMMPS
 from .readers import read_row, read_shear
 from .request import read_record
 from .shear import Shear, analyse
@@ -141,7 +142,10 @@ def _read_shear(
     if rows.stop - rows.start < FEWEST_ROWS:
         remarks.append((sigma, f"{rows.stop - rows.start} rows at full speed only, too few to fit a curve"))
         return None
-    if missing := missing_frames(place):
+    missing = missing_frames(place)
+    if (host := identity.get("host", LAMMPS)) != LAMMPS:
+        remarks.append((sigma, f"{host} writes no frames, so there is no picture"))
+    elif missing:
         without = f"no {', '.join(missing)} and so no picture; without its {SHEAR_TABLE} it would be run again"
         remarks.append((sigma, without))
     lost = None if GRAINS_DUMP in missing else _lost(place, identity, problems)

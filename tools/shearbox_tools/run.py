@@ -18,15 +18,16 @@ from .campaign import Campaign
 from .campaign_file import is_campaign
 from .checks import check
 from .display import Display, Whole, duration, make_display
-from .engine import PROGRAM, Engine, free_bytes
+from .engine import Engine, free_bytes
 from .errors import InputError, ShearboxError
 from .files import RECORD
 from .forecast import Forecast, total
+from .hosts import HOSTS, check_host, default_program
 from .lock import locked
-from .models import INPUT, PARAMETERS, find_model, read_variables
+from .models import PARAMETERS, find_model, read_variables
 from .numerals import number, numeral
 from .parameters import canonical, of_model, read_settings
-from .phases import DECKS, deck, shearing
+from .phases import DECKS, shearing
 from .presets import DENSITIES, PACKING_FRICTION
 from .request import OWN_OPTION, Request, check_folder, open_folder, placed, recorded
 from .specimens import Run, check_out, find_runs, planned, read_seeds
@@ -41,6 +42,7 @@ OF_A_RUN = (
     "seed",
     "seeds",
     "independent",
+    "host",
     "law",
     "dt",
     "stiffness",
@@ -88,14 +90,16 @@ def prepare(options: argparse.Namespace, asked: list[dict[str, Any]]) -> tuple[P
     runs = _in_turn(out, groups)
     if len(runs) > MOST_RUNS:
         raise InputError(f"{len(runs)} runs are asked for, at most {MOST_RUNS} are expected in one go")
-    engine = Engine(getattr(options, "engine", PROGRAM).resolve(), options.ranks)
+    host = _host_of(runs)
+    engine = Engine(getattr(options, "engine", default_program(host)).resolve(), options.ranks)
     for name, value in (("--jobs", min(getattr(options, "jobs", 1), tests_of(runs))), ("--ranks", engine.ranks)):
         if not 1 <= value <= 256:
             raise InputError(f"{name} {value}: 1 to 256 are expected")
     engine.check()
-    missing = [path.name for path in (PARAMETERS, *map(deck, DECKS)) if not path.is_file()]
+    check_host(host)
+    missing = [p for p in (PARAMETERS, *(HOSTS[host].decks / f"{name}.in" for name in DECKS)) if not p.is_file()]
     if missing:
-        raise InputError(f"{INPUT} lacks {', '.join(missing)}")
+        raise InputError(f"{missing[0].parent} lacks {', '.join(path.name for path in missing)}")
     for (folder, some), given in zip(groups, asked):
         _check_folders(folder, some, given)
     return out, runs, engine
@@ -110,6 +114,14 @@ def _planned(given: dict[str, Any], name: str) -> tuple[Path, list[Run]]:
     except InputError as error:
         raise InputError(f"{name}{error}") from error
     return out, runs
+
+
+def _host_of(runs: list[Run]) -> str:
+    """Of all of them."""
+    hosts = sorted({one.request.host for one in runs})
+    if len(hosts) > 1:
+        raise InputError(f"--host: {' and '.join(hosts)} are asked for, one for all runs is expected")
+    return hosts[0]
 
 
 def _refuse_within_a_run(out: Path, places: Iterable[Path]) -> None:
@@ -213,7 +225,7 @@ def _one_asked(given: dict[str, Any]) -> tuple[Path, Request]:
         raise InputError(
             f"--out is needed, or the folder of an earlier run in place of MODEL; {given['model']} is none"
         )
-    changes = {name: given[name] for name in ("speed", "travel", "seed", "law", "stiffness") if name in given}
+    changes = {name: given[name] for name in ("speed", "travel", "seed", "host", "law", "stiffness") if name in given}
     if "stress" in given:
         changes["stresses"] = tuple(sorted(given["stress"]))
     if "dt" in given:

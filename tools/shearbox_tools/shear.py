@@ -138,9 +138,10 @@ class Shear:
         return float(residual / work) if work != 0 else None
 
     @property
-    def dangerous_builds(self) -> int:
-        """Neighbour lists built too late; the counter begins anew when the phase is continued."""
-        counts = self.data["dangerous"]
+    def dangerous_builds(self) -> int | None:
+        """Neighbour lists built too late; None if they were not counted. The counter begins anew when the phase is continued."""
+        if (counts := self.data.get("dangerous")) is None:
+            return None
         steps = np.diff(counts, prepend=0)
         return int(np.sum(np.where(steps < 0, counts, steps)))
 

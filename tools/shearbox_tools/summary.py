@@ -14,6 +14,7 @@ from .files import PACKED, log_file
 from .logs import Log, read_logs
 from .phases import CONSOLIDATE, PACK, SHEAR
 from .plane import OnPlane
+from .presets import LAMMPS
 from .results import Results
 from .shear import Shear
 from .strength import COVERAGE, Line
@@ -188,7 +189,7 @@ def _versions(results: Results) -> dict[str, str | None]:
     return {
         "shearbox": __version__,
         "engine": next((log.shearbox for log in logs if log.shearbox), None),
-        "lammps": next((log.lammps for log in logs if log.lammps), None),
+        results.identity.get("host", LAMMPS): next((log.host for log in logs if log.host), None),
         "python": platform.python_version(),
         "numpy": np.__version__,
     }
