@@ -3,22 +3,27 @@
 
 from __future__ import annotations
 
+import shutil
+import signal
+import subprocess
 import sys
+import time
 from pathlib import Path
 from typing import Any
 
 import pytest
-from engine import DECKS, run
+from engine import DECKS, ENVIRONMENT, PROGRAM, Frame, run
 
 ROOT = Path(__file__).resolve().parents[2]
 INPUT = ROOT / "input"
 sys.path.insert(0, str(ROOT / "tools"))
 
-from shearbox_tools.files import PACKED_TABLE  # noqa: E402
+from shearbox_tools.files import PACKED_RESTART, PACKED_TABLE  # noqa: E402
 from shearbox_tools.models import find_model  # noqa: E402
 from shearbox_tools.named import model_text  # noqa: E402
 from shearbox_tools.presets import DENSITIES, PACKING_FRICTION  # noqa: E402
 from shearbox_tools.readers import read_row  # noqa: E402
+from shearbox_tools.restarts import step_of  # noqa: E402
 
 SMALL = "TypeA_4x2_2-4_1-circle_auto"
 
@@ -45,7 +50,9 @@ def test_the_same_bits_on_any_ranks(tmp_path: Path) -> None:
     ends = []
     for ranks in (1, 2, 4):
         text, options = deck(tmp_path / str(ranks), "TypeA_2x1_2-4_1-circle_auto")
-        compact = text.split("# Press together")[0] + f"run 200\ninclude {DECKS}/end.in\n"
+        compact, _, press = text.partition('if "$(is_defined(group,pressed)) == 0"')
+        assert press
+        compact += f"run 200\ninclude {DECKS}/end.in\n"
         ends.append(run(compact, tmp_path / str(ranks), ranks=ranks, **options).end)
     assert all(set(ends[0].columns) == set(end.columns) for end in ends)
     assert all((ends[0][name] == end[name]).all() for end in ends for name in end.columns)
@@ -73,3 +80,61 @@ def test_friction_makes_it_loose(tmp_path: Path) -> None:
 def test_as_many_as_fill_the_box(tmp_path: Path, name: str) -> None:
     """Equal discs, which crystallise, and grains of three discs."""
     assert pack(tmp_path, name)["height_m"] == pytest.approx(2 * find_model(name).half_height, rel=0.01)
+
+
+CHECKPOINTS = [f"{PACKED_RESTART}.{letter}" for letter in "abc"]
+BETWEEN = 3200  # steps between checkpoints
+
+
+def go_on(folder: Path) -> dict[str, Any]:
+    """The variable that says where to go on: from the latest checkpoint, as `shearbox run` does."""
+    steps = {name[-1]: step for name in CHECKPOINTS if (step := step_of(folder / name)) is not None}
+    return {"from": max(steps, key=lambda name: steps[name])} if steps else {}
+
+
+def as_packed(folder: Path) -> tuple[dict[str, float], Frame]:
+    """Its row, and the grains and walls of its restart file."""
+    text = f"newton off\nread_restart {PACKED_RESTART}\n"
+    text += "pair_style cdem law direct\npair_coeff * * 1e8 2.5e7 0.2 0.2 27\nfix motion all cdem/integrate dt any\n"
+    return read_row(folder / PACKED_TABLE), run(text + f"include {DECKS}/end.in\n", folder).end
+
+
+@pytest.mark.parametrize("name", ["TypeA_4x2_2-4_1-circle_auto", "TypeA_4x2_2-4_3-circle_auto"])
+def test_stopped_at_every_checkpoint_it_goes_on_to_the_same_bits(tmp_path: Path, name: str) -> None:
+    """Decks that end at each checkpoint, so that all stages are stopped; on other ranks each time."""
+    pack(tmp_path / "whole", name)
+    decks, folder = tmp_path / "decks", tmp_path / "stopped"
+    shutil.copytree(INPUT, decks)
+    stage = (decks / "stage.in").read_text(encoding="utf-8")
+    checkpoint = "write_restart ${product}.restart.${put}\n"
+    assert checkpoint in stage
+    (decks / "stage.in").write_text(stage.replace(checkpoint, checkpoint + "quit\n"), encoding="utf-8")
+    text, options = deck(folder, name)
+    starts = 0
+    while not (folder / PACKED_TABLE).exists():
+        run(text, folder, ranks=1 + starts % 2, **options | {"decks": decks, "save": BETWEEN} | go_on(folder))
+        starts += 1
+    assert starts > 5 and not any((folder / name).exists() for name in CHECKPOINTS)
+    (row, end), (whole_row, whole_end) = as_packed(folder), as_packed(tmp_path / "whole")
+    assert row == whole_row
+    for column in ("id", "x", "y", "vx", "vy", "omegaz"):
+        assert (end[column] == whole_end[column]).all()
+
+
+def test_asked_to_end_it_leaves_a_checkpoint(tmp_path: Path) -> None:
+    """By the signal SIGUSR1; the next start goes on from there."""
+    name = "TypeA_6x3_2-4_1-circle_auto"
+    text, options = deck(tmp_path, name)
+    (tmp_path / "deck.in").write_text(text, encoding="utf-8")
+    words = [str(PROGRAM), "-in", "deck.in", *(w for n, value in options.items() for w in ("-var", n, str(value)))]
+    process = subprocess.Popen(words, cwd=tmp_path, env=ENVIRONMENT, stdout=subprocess.DEVNULL)
+    log = tmp_path / "log.lammps"
+    while process.poll() is None and not (log.exists() and "run " in log.read_text(encoding="utf-8")):
+        time.sleep(0.01)
+    process.send_signal(signal.SIGUSR1)
+    assert process.wait(60) == 0
+    assert "asked to end, it has packed.restart.c of step" in log.read_text(encoding="utf-8")
+    assert go_on(tmp_path) == {"from": "c"} and not (tmp_path / PACKED_TABLE).exists()
+    run(text, tmp_path, **options | go_on(tmp_path))
+    pack(tmp_path / "whole", name)
+    assert read_row(tmp_path / PACKED_TABLE) == read_row(tmp_path / "whole" / PACKED_TABLE)

@@ -2,11 +2,15 @@
 """Make the package under tools/ importable as `tools/shearbox` does; reports without pictures."""
 
 import os
+import signal
 import sys
 from pathlib import Path
 
 import pytest
 
+# A background job ignores these; the programs that the tests interrupt would inherit that.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGQUIT, signal.SIG_DFL)
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as shearbox itself sets it; before anything imports numpy
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
 sys.path.insert(0, str(Path(__file__).resolve().parent))

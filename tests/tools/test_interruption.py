@@ -18,6 +18,7 @@ import synthetic
 from shearbox_tools.engine import Engine
 from shearbox_tools.errors import InputError, ShearboxError
 from shearbox_tools.files import DUMPS, write_text
+from shearbox_tools.forecast import Forecast
 from shearbox_tools.lock import locked
 from shearbox_tools.models import find_model
 from shearbox_tools.phases import Phase, all_phases, left_to_do, rows_of_shear, steps_between_frames
@@ -233,6 +234,35 @@ def test_frames_lost_in_a_power_cut_are_missed(stopped: Phase) -> None:
     stopped.unseal()
     write_frames(stopped.folder, 95 * EVERY)
     assert state(stopped) == ("b", 80)
+
+
+@pytest.mark.parametrize("which", [0, 1], ids=["packing", "consolidation"])
+def test_what_comes_before_shear_goes_on_as_well(folder: Path, which: int) -> None:
+    """Of its restart files the latest that is whole counts; its table is written at the end alone."""
+    phase = all_phases(folder, REQUEST)[which]
+    for name in (phase.restart, phase.product):
+        (phase.folder / name).unlink()
+    for k, letter in ((20000, "a"), (60000, "b"), (40000, "c")):
+        synthetic.write_restart(phase.folder / f"{phase.restart}.{letter}", k)
+    phase.seal()
+    assert not phase.done and not phase.leads_on
+    assert make_ready(phase)[0].variables["from"] == "b"
+    (phase.folder / f"{phase.restart}.b").write_bytes(b"half of it")
+    assert make_ready(phase)[0].variables["from"] == "c"
+    assert {name[-1] for name in phase.checkpoints if (phase.folder / name).exists()} == {"a", "c"}
+
+
+def test_a_packing_that_has_begun_is_partly_done(folder: Path) -> None:
+    packing = all_phases(folder, REQUEST)[0]
+    for name in (packing.restart, packing.product):
+        (packing.folder / name).unlink()
+    shares = []
+    for step in (None, 1000, 10000, 10**9):
+        if step is not None:
+            synthetic.write_restart(packing.folder / f"{packing.restart}.a", step)
+        shares.append(Forecast(folder, REQUEST).share_done(packing))
+    assert shares[0] == 0 and 0 < shares[1] < shares[2] < shares[3] < 1
+    assert shares[2] == pytest.approx(10 * shares[1])
 
 
 def test_a_restart_file_is_known_by_its_ends(tmp_path: Path) -> None:

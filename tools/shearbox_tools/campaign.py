@@ -73,7 +73,7 @@ class Campaign:
         self.stopped = False  # before all was done, as asked
 
     def end(self) -> None:
-        """Begin nothing more; a running shear phase ends after its next row, with a restart file, the others at once."""
+        """Begin nothing more; running phases end as soon as they have written a restart file."""
         self._ending = True
 
     def run(self, jobs: int) -> list[Failure]:
@@ -224,7 +224,7 @@ def _seal_checkpoints(job: Job) -> None:
             written = (folder / name).stat().st_mtime_ns
             if written == job.seen.get(name) or step_of(folder / name) is None:
                 continue
-            for behind in (job.phase.product, *job.phase.frames):
+            for behind in (job.phase.product, *job.phase.frames) if job.phase.name == SHEAR else ():
                 sync(folder / behind)
             seal(folder, [name])
             job.seen[name] = written

@@ -17,6 +17,7 @@ from .models import PARAMETERS, read_variables
 from .numerals import number
 from .phases import CONSOLIDATE, PACK, SHEAR, Phase, disk_need, frames_of, packing, shearing
 from .request import Request
+from .restarts import step_of
 
 SECONDS = {PACK: 45e-9, CONSOLIDATE: 25e-9, SHEAR: 25e-9}  # a disc and step; loose grains need new lists all the time
 SECONDS_PER_DISC_AND_FRAME = 18e-6
@@ -86,8 +87,14 @@ class Forecast:
         return self._discs * (self._steps(phase) * pace + frames * SECONDS_PER_DISC_AND_FRAME)
 
     def share_done(self, phase: Phase) -> float:
-        """The part of a phase that is done, from 0 to 1."""
-        return 1.0 if phase.done else min(1.0, phase.displacement() / self._request.travel) * (phase.name == SHEAR)
+        """The part of a phase that is done, from 0 to 1; of one that ends when the grains are at rest, about."""
+        if phase.done:
+            return 1.0
+        if phase.name == SHEAR:
+            return min(1.0, phase.displacement() / self._request.travel)
+        reached = max((step_of(phase.folder / name) or 0 for name in phase.checkpoints), default=0)
+        begin = step_of(self._packing.folder / self._packing.restart) or 0 if phase.name == CONSOLIDATE else 0
+        return min(0.9, max(0, reached - begin) / self._steps(phase))
 
     def left(self, phase: Phase) -> float:
         """Time still to go."""

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from .errors import InputError, ShearboxError
 from .files import CONSOLIDATED_RESTART, CONSOLIDATED_TABLE, DUMPS, PACKED, PACKED_RESTART, PACKED_TABLE
-from .files import SHEAR_RESTARTS, SHEAR_TABLE, SHEARED_RESTART, log_file, stress_folder
+from .files import SHEAR_RESTART, SHEAR_TABLE, SHEARED_RESTART, log_file, stress_folder
 from .hosts import HOSTS
 from .models import INPUT, PARAMETERS, read_variables
 from .numerals import number
@@ -103,8 +103,9 @@ class Phase:
 
     @property
     def checkpoints(self) -> tuple[str, ...]:
-        """Restart files that it writes in turn while it runs."""
-        return SHEAR_RESTARTS if (self.name, self.host) == (SHEAR, LAMMPS) else ()
+        """Restart files that it writes while it runs: a and b in turn, c where it was asked to end."""
+        name = SHEAR_RESTART if self.name == SHEAR else self.restart
+        return tuple(f"{name}.{letter}" for letter in "abc") if self.host == LAMMPS else ()
 
     def displacement(self) -> float:
         """Shear displacement (mm) reached so far, from the last whole row of shear.dat; 0 when there is none."""

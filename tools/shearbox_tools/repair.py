@@ -6,7 +6,7 @@ from dataclasses import replace
 from .dumps import Dump
 from .errors import ShearboxError
 from .files import DUMPS, SHEAR_TABLE
-from .phases import Phase, steps_between_frames
+from .phases import SHEAR, Phase, steps_between_frames
 from .readers import cut_rows, read_shear
 from .restarts import step_of
 from .seals import Seal, look_at
@@ -15,7 +15,7 @@ from .seals import Seal, look_at
 def make_ready(phase: Phase) -> tuple[Phase, list[str]]:
     """The phase as it can be started, going on if it can; and what had to be given up for that.
 
-    Of the restart files that are whole the latest is taken which table and dumps reach, too: a power cut may lose what
+    Of the restart files that are whole the latest is taken which table and dumps of a shear phase reach, too: a power cut may lose what
     was written to them last. They are cut off behind it, so nothing is in them twice. Without one all is written anew.
     """
     steps, notes = _steps_of_checkpoints(phase)
@@ -27,7 +27,8 @@ def make_ready(phase: Phase) -> tuple[Phase, list[str]]:
             continue
         _remove(phase, [other for other in phase.checkpoints if steps.get(other, step + 1) > step])
         phase.unseal()
-        cut_rows(phase.folder / SHEAR_TABLE, step)
+        if phase.name == SHEAR:
+            cut_rows(phase.folder / SHEAR_TABLE, step)
         for dump in dumps:
             dump.cut(frame)
         return replace(phase, variables=phase.variables | {"from": name[-1]}), notes
@@ -50,7 +51,10 @@ def _steps_of_checkpoints(phase: Phase) -> tuple[dict[str, int], list[str]]:
 
 
 def _reaching(phase: Phase, step: int) -> tuple[list[Dump], int]:
-    """The dumps, and the step of their last frame up to a step that they and the table reach without a gap."""
+    """The dumps, and the step of their last frame up to a step that they and the table reach without a gap; packing and
+    consolidation write neither on their way."""
+    if phase.name != SHEAR:
+        return [], 0
     table = phase.folder / SHEAR_TABLE
     rows = [int(row) for row in read_shear(table)["step"]]
     if step not in rows:

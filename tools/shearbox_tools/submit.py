@@ -70,8 +70,7 @@ def element(folder: Path, number: int) -> None:
             raise
         if _phases_done(runs) <= before:
             raise ShearboxError(
-                "nothing came to an end before the limit of the job: packing and consolidation begin anew when they are "
-                "stopped, and need a longer one"
+                "nothing was done before the limit of the job that it could go on from: it needs a longer one"
             ) from interruption
         print("the limit of the job is near: it begins again later, to go on", flush=True)
         find_scheduler(jobs.scheduler).requeue()
