@@ -143,14 +143,17 @@ template <class Loop> [[gnu::always_inline]] inline void choose(const StepRule &
 
 void advance_block(const SlotBlock &block, Disc<double> *discs, Body *bodies, const StepRule &step, Fastest &fastest,
                    Travel *travel) {
-  choose(step, travel, [&](auto body_forces, auto travels) {
-    Four squares{};
-    const StepRule s = step;
-    for_each_sum(block, block.end_of_grains, [&](int disc, Four sum) {
-      advance<body_forces>(discs[disc], bodies[disc], sum, s, squares, travels ? travel + disc : nullptr);
-    });
-    fastest.see(squares);
-  });
+  // Both always inlined: GCC otherwise calls a function for every disc, which reads all it needs from memory.
+  choose(
+      step, travel, [&](auto body_forces, auto travels) __attribute__((always_inline)) {
+        Four squares{};
+        const StepRule s = step;
+        for_each_sum(
+            block, block.end_of_grains, [&](int disc, Four sum) __attribute__((always_inline)) {
+              advance<body_forces>(discs[disc], bodies[disc], sum, s, squares, travels ? travel + disc : nullptr);
+            });
+        fastest.see(squares);
+      });
 }
 
 void expand_clumps(const ClumpColumns &columns, int begin, int end, double half_step) {

@@ -112,7 +112,8 @@ def test_stopped_at_every_checkpoint_it_goes_on_to_the_same_bits(tmp_path: Path,
     text, options = deck(folder, name)
     starts = 0
     while not (folder / PACKED_TABLE).exists():
-        run(text, folder, ranks=1 + starts % 2, **options | {"decks": decks, "save": BETWEEN} | go_on(folder))
+        start: dict[str, Any] = options | {"decks": decks, "save": BETWEEN} | go_on(folder)
+        run(text, folder, ranks=1 + starts % 2, **start)
         starts += 1
     assert starts > 5 and not any((folder / name).exists() for name in CHECKPOINTS)
     (row, end), (whole_row, whole_end) = as_packed(folder), as_packed(tmp_path / "whole")
