@@ -22,6 +22,7 @@ from paper_tools.record import read_record, write_record
 from paper_tools.specimens import CURVES, JUDGED, NUMBERS, PLACES, Group, Specimen
 from paper_tools.study import CAMPAIGNS, Part, campaign_file, parts_left, report
 from shearbox_tools.cli import main
+from shearbox_tools.errors import ShearboxError
 from shearbox_tools.models import find_model
 from shearbox_tools.phases import shearing
 from shearbox_tools.request import Request
@@ -228,6 +229,20 @@ def test_new_specimens_join_those_kept(tmp_path: Path, monkeypatch: pytest.Monke
     assert "smooth: 3 of 82 specimens" in (tmp_path / "page.html").read_text(encoding="utf-8")
 
 
+def test_what_is_damaged_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for seed in (1, 2, 3):
+        write_specimen(tmp_path / "smooth" / "A_4-8" / f"seed_{seed}", "TypeA_10x5_4-8_1-circle_350", seed)
+    table = tmp_path / "smooth" / "A_4-8" / "seed_2" / "100" / "shear.dat"
+    table.write_text(table.read_text(encoding="utf-8").replace("0", "x", 1), encoding="utf-8")
+    (tmp_path / "smooth" / "A_4-8" / "seed_3" / "run.json").write_text("{", encoding="utf-8")
+    monkeypatch.setattr("paper_tools.study.print_page", lambda page: None)
+    report(tmp_path, {})
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "smooth: 1 of 82 specimens" in page and "Left out" in page
+    assert page.count(f"<li>{tmp_path}/smooth/A_4-8/seed_2") == 1
+    assert page.count(f"<li>{tmp_path}/smooth/A_4-8/seed_3") == 1
+
+
 def test_what_is_kept_is_not_run_again() -> None:
     runs = ["A_4-8", "B_4-8", "C_4-8", "D_4-8", "A_2-4"]  # 8, 8, 4, 2, 8 specimens
     kept = {"A_4-8": range(1, 5), "B_4-8": range(1, 5), "D_4-8": range(1, 3), "A_2-4": [1, 3, 5, 7, 9]}
@@ -264,6 +279,12 @@ def test_the_study_goes_on_from_what_is_kept(tmp_path: Path, monkeypatch: pytest
         ]
     ]
     assert [one.seed for one in read_record(out)["friction"]["single_0"]] == [1, 2, 4]
+
+
+def test_a_record_of_another_study_is_refused(tmp_path: Path) -> None:
+    kept = known("smooth", "A_4-8", [1]) | known("rate", "single_3", [1])
+    with pytest.raises(ShearboxError, match="rate/single_3: specimens of a run that .*rate.toml does not have"):
+        report(tmp_path, kept)
 
 
 def test_no_record_is_said_so(tmp_path: Path) -> None:

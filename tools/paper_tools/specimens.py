@@ -10,6 +10,7 @@ from shearbox_tools.campaign import read_timings
 from shearbox_tools.ensemble import lines_of
 from shearbox_tools.ensemble_results import FEATURES, holds_in
 from shearbox_tools.features import steepest_dilatancy
+from shearbox_tools.grouping import LeftOut
 from shearbox_tools.reading import read_all, read_quietly
 from shearbox_tools.results import Results
 from shearbox_tools.shear import Shear
@@ -106,14 +107,16 @@ class Group:
         return values[np.isfinite(values)]
 
 
-def read_specimens(folder: Path) -> dict[str, list[Specimen]]:
-    """Those below the folder of a campaign by the names of their entries; what is not complete is left out."""
+def read_specimens(folder: Path) -> tuple[dict[str, list[Specimen]], list[LeftOut]]:
+    """Those below the folder of a campaign by the names of their entries, without runs that have not ended; and what is damaged."""
     places = find_runs(folder) if folder.is_dir() else []
     entries: dict[str, list[Specimen]] = {}
-    for run in read_all(places, read_quietly)[0]:
+    every, damaged = read_all(places, read_quietly)
+    for run in every:
         if run.complete and run.knows_plane and len(run.shears) > 1:
             entries.setdefault(run.folder.relative_to(folder).parts[0], []).append(specimen(run))
-    return entries
+        damaged += [LeftOut(run.folder, problem) for problem in run.problems]
+    return entries, damaged
 
 
 def specimen(results: Results) -> Specimen:

@@ -59,7 +59,8 @@ def _seeds_left(asked: int, there: Iterable[Specimen]) -> list[int]:
 
 def report(folder: Path, kept: Campaigns) -> Path:
     """Write page, figures and tables of the campaigns in the folder and of the specimens kept; the path of the page."""
-    campaigns = {name: _together(read_specimens(folder / name), kept.get(name, {})) for name in CAMPAIGNS}
+    read = {name: read_specimens(folder / name) for name in CAMPAIGNS}
+    campaigns = {name: _together(specimens, kept.get(name, {})) for name, (specimens, _) in read.items()}
     if not campaigns["smooth"]:
         raise ShearboxError(f"{folder / 'smooth'}: no specimen of the models is complete yet")
     folder.mkdir(parents=True, exist_ok=True)
@@ -82,6 +83,7 @@ def report(folder: Path, kept: Campaigns) -> Path:
         tests=sum(len(one.tests) for one in specimens),
         hours=sum(one.hours for one in specimens if math.isfinite(one.hours)),
         missing=_missing(groups),
+        damaged=[one for _, some in read.values() for one in some],
         findings=found,
         claims=_side_by_side(found),
         halves=halves_agree(smooth, HALVES) if any(len(g.specimens) > 3 for g in smooth.values()) else None,
@@ -108,6 +110,8 @@ def _together(new: Mapping[str, list[Specimen]], kept: Mapping[str, list[Specime
 
 
 def _groups(campaign: str, entries: Mapping[str, list[Specimen]]) -> dict[str, Group]:
+    if unknown := [name for name in entries if name not in runs_of(campaign)]:
+        raise ShearboxError(f"{campaign}/{unknown[0]}: specimens of a run that {campaign_file(campaign)} does not have")
     return {name: Group(name, runs_of(campaign)[name]["model"], some) for name, some in entries.items()}
 
 
