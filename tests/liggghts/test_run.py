@@ -80,7 +80,7 @@ def test_killed_in_shear_it_begins_that_anew(tmp_path: Path, done: Path) -> None
     while not (out / "100" / "shear.dat").exists() or (out / "100" / "shear.dat").stat().st_size < 10_000:
         assert time.monotonic() < until and process.poll() is None
         time.sleep(0.02)
-    process.send_signal(signal.SIGINT)
+    process.send_signal(signal.SIGTERM)
     assert process.wait(60) != 0
     assert len((out / "100" / "shear.dat").read_text().splitlines()) < 800
     told = shearbox(out, "--stress", "100")
