@@ -21,8 +21,9 @@ struct NoLosses {};
 // Books one step with these velocities; `beside_*` are losses (J) that the mean of the two ends does not cover. The
 // spring of a sliding contact is stretched to `trial` and then relaxes to its limit: the difference is friction.
 template <class T, std::size_t n>
-inline void book(Losses<T, n> &l, const Approach<T> &step, const Approach<T> &dashpot, const Friction<T> &f,
-                 T beside_dashpots, T beside_friction, const Material &m, double dt) {
+[[gnu::always_inline]] inline void book(Losses<T, n> &l, const Approach<T> &step, const Approach<T> &dashpot,
+                                        const Friction<T> &f, T beside_dashpots, T beside_friction, const Material &m,
+                                        double dt) {
   const T fn = l.dashpot_n + dashpot.n, ft = l.dashpot_t + dashpot.t;
   l.dashpots = fused(T(-0.5 * dt), fused(fn, step.n, ft * step.t), l.dashpots + beside_dashpots);
   const double none = std::numeric_limits<double>::infinity(); // does not depend on T: the division leaves the loop

@@ -82,8 +82,10 @@ template <int lines> [[gnu::always_inline]] inline const void *prefetch(const vo
 
 // The square root and the division of the next pairs are started before the law is applied to the present ones: see
 // Distance. All functions of a law are always inlined: vectors would be passed to a function through memory.
-template <class Law, class Books, class T, bool fetches>
-void loop(const Disc<double> *discs, const PairColumns &p, const Material &material, int begin, int end, double dt) {
+// `fetches`: whether to prefetch; true_type or false_type, or a bool.
+template <class Law, class Books, class T, class Fetches>
+void loop(const Disc<double> *discs, const PairColumns &p, const Material &material, int begin, int end, double dt,
+          Fetches fetches) {
   const Material m = material; // a copy: the compiler must assume that a store may change the original
   const Numbers<Law::MEMORIES, double> memories(p.memories);
   const Numbers<Law::CONSTANTS, const double> constants(p.constants);
@@ -96,7 +98,7 @@ void loop(const Disc<double> *discs, const PairColumns &p, const Material &mater
   Relative<T> relative = load_relative(discs, group->a, group->b, T());
   Distance<T> distance = distance_of(relative);
   for (; group != group_end; ++group) {
-    if constexpr (fetches)
+    if (fetches)
       prefetch(group, ahead);
     for (int lane = 0; lane < SIZE; lane += WIDTH) {
       const PairGroup &next_group = group[(lane + WIDTH) / SIZE];
@@ -124,8 +126,14 @@ void loop(const Disc<double> *discs, const PairColumns &p, const Material &mater
 template <class Law, class Books>
 void forces(const Disc<double> *discs, const PairColumns &columns, const Material &material, int begin, int end,
             double dt) {
-  columns.ahead.rows ? loop<Law, Books, Widest, true>(discs, columns, material, begin, end, dt)
-                     : loop<Law, Books, Widest, false>(discs, columns, material, begin, end, dt);
+  const bool fetches = columns.ahead.rows;
+  const auto run = [&](auto choice) { loop<Law, Books, Widest>(discs, columns, material, begin, end, dt, choice); };
+  if constexpr (Law::CONSTANTS > 0)
+    run(fetches); // with an addition the choice costs little beside the law, and a second loop as much to compile
+  else if (fetches)
+    run(std::true_type());
+  else
+    run(std::false_type());
 }
 
 void sum(const SlotBlock &block, Forces<double> *sums, int first) {
