@@ -51,7 +51,11 @@ def words_before(host: str) -> list[str]:
 
 def check_host(host: str) -> None:
     """Refuse to begin without what the host needs beside its program."""
-    if host == LIGGGHTS and not LIBRARY.is_file():
+    if host != LIGGGHTS:
+        return
+    if not LIBRARY.is_file():
         raise InputError(
             f"--host liggghts: there is no {LIBRARY}. tools/setup --liggghts installs LIGGGHTS and builds it"
         )
+    if any(mark in str(LIBRARY) for mark in " :"):
+        raise InputError(f"--host liggghts: {LIBRARY}: LD_PRELOAD takes no path with a blank or a colon")
