@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 import synthetic
+from matplotlib.figure import Figure
 from test_run import TESTS
 
 from paper_tools import findings
@@ -241,6 +242,24 @@ def test_what_is_damaged_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     assert "smooth: 1 of 82 specimens" in page and "Left out" in page
     assert page.count(f"<li>{tmp_path}/smooth/A_4-8/seed_2") == 1
     assert page.count(f"<li>{tmp_path}/smooth/A_4-8/seed_3") == 1
+
+
+def test_the_legend_of_one_box_is_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    kept: dict[str, dict[str, list[Specimen]]] = {"smooth": {}}
+    for run in ("A_4-8", "A_2-4", "A_2-4_triple"):
+        kept["smooth"] |= known("smooth", run, [1, 2])["smooth"]
+    drawn: list[Figure] = []
+    monkeypatch.setattr("paper_tools.study.print_page", lambda page: None)
+    monkeypatch.setattr(
+        Figure, "savefig", lambda self, file, **_: (drawn.append(self), Path(file).write_text("<svg/>"))
+    )
+    report(tmp_path, kept)
+    panels = [figure for figure in drawn if figure.legends]
+    assert len(panels) == 4
+    for figure in panels:
+        figure.draw_without_rendering()
+        box = figure.legends[0].get_window_extent()
+        assert 0 <= box.x0 < box.x1 <= figure.bbox.x1
 
 
 def test_what_is_kept_is_not_run_again() -> None:

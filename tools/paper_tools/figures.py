@@ -27,6 +27,7 @@ _PAPER_ORDER = [f"{box}_{size}" for size in (COARSE, FINE, TRIPLE) for box in BO
 NUMBER_OF = {name: 3 + k for k, name in enumerate(_PAPER_ORDER)}  # of the figure of a model
 
 LEGEND_INCHES = 0.3
+LEAST_WIDTH = 5.0  # inches: that of a legend of three entries
 
 Groups = Mapping[str, Group]
 
@@ -97,7 +98,8 @@ def _with_error(
 def _panels(groups: Groups, kinds: Mapping[str, str], y: str, rows: int = 1) -> tuple[Figure, np.ndarray, list[str]]:
     """Diagrams side by side, one for each box of which there are two kinds or more, on the same scales."""
     boxes = [box for box in BOXES if sum(f"{box}_{kind}" in groups for kind in kinds) > 1]
-    figure = Figure(figsize=(2.6 * max(1, len(boxes)) + 0.6, 2.9 * rows + 0.4), layout="constrained")
+    width = max(LEAST_WIDTH, 2.6 * len(boxes) + 0.6)
+    figure = Figure(figsize=(width, 2.9 * rows + 0.4), layout="constrained")
     axes = figure.subplots(rows, max(1, len(boxes)), sharex=True, sharey=True, squeeze=False)
     for column, box in zip(axes.T, boxes):
         column[0].set_title(f"box {box}", fontsize=9)

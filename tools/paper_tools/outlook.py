@@ -8,7 +8,7 @@ in the campaign of all models.
 import csv
 import io
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -29,18 +29,20 @@ PANELS = {
     "dilation_deg": "ψ at the peak (°)",
     "trm": "TRM (–)",
 }
+COHESIONS = {"c": "c by the lid (kPa)", "c_plane": "c by the shear plane (kPa)"}
 TABLE = ["phi", "phi_plane", "c", "c_plane", "dilation_deg", "trm", "mean", "mean_plane", "end", "inertial", "solid"]
 
 
 @dataclass(frozen=True)
 class Sweep:
-    """A campaign: title, the axis of its values, whether that is logarithmic, and the paper's value."""
+    """A campaign: title, the axis of its values, whether that is logarithmic, the paper's value, and what is drawn."""
 
     name: str
     title: str
     axis: str
     base: str
     logarithmic: bool = False
+    panels: Mapping[str, str] = field(default_factory=lambda: PANELS)
 
 
 SWEEPS = (
@@ -48,7 +50,7 @@ SWEEPS = (
     Sweep("inertia", "Roller effect: moment of inertia", "moment of inertia over that of discs (–)", "1", True),
     Sweep("rolling", "Roller effect: rolling resistance", "coefficient of rolling resistance (–)", "0"),
     Sweep("friction", "φ and the friction angle between grains", "φ_μ (degrees)", "27"),
-    Sweep("cohesion", "Cohesive contacts", "pull-off force of two discs (N)", "0"),
+    Sweep("cohesion", "Cohesive contacts", "pull-off force of two discs (N)", "0", panels=COHESIONS | PANELS),
 )
 
 
@@ -89,7 +91,7 @@ def study(sweep: Sweep, groups: Mapping[str, Group], models: Mapping[str, Group]
     with rc_context(RC):
         _figure(sweep, points).savefig(picture, metadata={"Date": None})
     write_text(numbers, _csv(points))
-    trends = [(name, _trend(sweep, f, points, name)) for f in families for name in PANELS]
+    trends = [(name, _trend(sweep, f, points, name)) for f in families for name in sweep.panels]
     return Study(sweep, points, trends, picture)
 
 
@@ -104,12 +106,14 @@ def _trend(sweep: Sweep, family: str, points: list[Point], name: str) -> Effect:
     values = [point.group.values(name) for point in some]
     x = np.concatenate([np.full(len(v), point.value) for v, point in zip(values, some)])
     per = "tenfold" if sweep.logarithmic else "unit"
-    return slope(f"{family}: {PANELS[name]} per {per}", np.log10(x) if sweep.logarithmic else x, np.concatenate(values))
+    return slope(
+        f"{family}: {sweep.panels[name]} per {per}", np.log10(x) if sweep.logarithmic else x, np.concatenate(values)
+    )
 
 
 def _figure(sweep: Sweep, points: list[Point]) -> Figure:
-    figure = Figure(figsize=(9.6, 2.9), layout="constrained")
-    for axes, (name, label) in zip(figure.subplots(1, len(PANELS)), PANELS.items()):
+    figure = Figure(figsize=(2.4 * len(sweep.panels), 2.9), layout="constrained")
+    for axes, (name, label) in zip(figure.subplots(1, len(sweep.panels)), sweep.panels.items()):
         for look, family in zip(OTHER_LOOKS, sorted({point.family for point in points})):
             some = [point for point in points if point.family == family]
             effects = [point.effect(name) for point in some]
