@@ -250,9 +250,12 @@ def test_the_legend_of_one_box_is_whole(tmp_path: Path, monkeypatch: pytest.Monk
         kept["smooth"] |= known("smooth", run, [1, 2])["smooth"]
     drawn: list[Figure] = []
     monkeypatch.setattr("paper_tools.study.print_page", lambda page: None)
-    monkeypatch.setattr(
-        Figure, "savefig", lambda self, file, **_: (drawn.append(self), Path(file).write_text("<svg/>"))
-    )
+
+    def keep(figure: Figure, file: Path, **_: Any) -> None:
+        drawn.append(figure)
+        file.write_text("<svg/>", encoding="utf-8")
+
+    monkeypatch.setattr(Figure, "savefig", keep)
     report(tmp_path, kept)
     panels = [figure for figure in drawn if figure.legends]
     assert len(panels) == 4
