@@ -65,6 +65,11 @@ def hand_over(grains: Frame, who: str, folder: Path) -> None:
 def sheared(who: str, folder: Path, ranks: int = 1, **variables: Any) -> Columns:
     """shear.dat of the deck shear.in."""
     run(who, "shear.in", folder, ranks, **variables)
+    return shear_table(folder)
+
+
+def shear_table(folder: Path) -> Columns:
+    """The columns of a shear.dat."""
     with (folder / "shear.dat").open() as file:
         names = file.readline()[1:].split()
         return dict(zip(names, np.loadtxt(file, ndmin=2).T, strict=True))

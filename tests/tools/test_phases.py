@@ -108,6 +108,17 @@ def test_where_the_decks_find_a_model(tmp_path, model, results, seen):
         assert (variables["model"], variables["models"]) == ("sand", seen.format(tmp=tmp_path))
 
 
+def test_a_model_whose_own_name_has_a_blank_is_refused(tmp_path):
+    path = tmp_path / "my sand.in"
+    path.write_text((INPUT / "models" / "TypeA_10x5_4-8_1-circle_350.in").read_text(encoding="utf-8"), encoding="utf-8")
+    with pytest.raises(InputError, match="my sand.in: LAMMPS cannot include a file with a blank in its name"):
+        packing(tmp_path / "results", Request(read_model(path), (100.0,)))
+
+
+def test_without_frames_no_disk_is_needed_for_them(tmp_path):
+    assert disk_need(replace(request(), host="liggghts"), tmp_path) == 0
+
+
 def test_a_half_travels_as_far_as_its_flanges_are_long():
     """The decks say how long, or the command line."""
     check(request())

@@ -82,7 +82,7 @@ class Forecast:
 
     def work(self, phase: Phase) -> float:
         """Time of a whole phase."""
-        frames = frames_of(phase.variables) if phase.name == SHEAR else 0
+        frames = frames_of(phase.variables) if phase.frames else 0
         pace = self._slowness * SECONDS[phase.name]
         return self._discs * (self._steps(phase) * pace + frames * SECONDS_PER_DISC_AND_FRAME)
 

@@ -68,13 +68,13 @@ def average(shears: Sequence[Shear]) -> MeanCurve:
 NAMES = ("displacement_mm", "tau_kPa", "lid_mm")
 
 
-def as_csv(curves: Sequence[MeanCurve], every: int = 1) -> str:
-    """One table of all stresses, with every so many'th row."""
+def as_csv(curves: Sequence[MeanCurve]) -> str:
+    """One table of all stresses."""
     blocks = []
     for curve in curves:
         bands = [values for band in (curve.tau, curve.lid) for values in (band.mean, band.deviation, band.error)]
         first = [np.full(len(curve.displacement), value) for value in (curve.sigma, curve.count)]
-        blocks.append(np.column_stack([*first, curve.displacement, *bands])[::every])
+        blocks.append(np.column_stack([*first, curve.displacement, *bands]))
     names = [f"{what}_{part}{unit}" for what, unit in (("tau", "_kPa"), ("lid", "_mm"))
              for part in ("mean", "standard_deviation", "standard_error")]  # fmt: skip
     header = ",".join(["sigma_kPa", "specimens", "displacement_mm", *names])

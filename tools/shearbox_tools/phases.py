@@ -171,17 +171,15 @@ def steps_between_frames(settings: Mapping[str, str], steps_between_rows: int) -
 
 def disk_need(request: Request, folder: Path) -> int:
     """Bytes of frames that the phases not yet done will write, roughly."""
-    if request.host != LAMMPS:
-        return 0
     frames = 1 + frames_of(request.settings)
-    left = [chain for chain in left_to_do(folder, request)[1] if chain[-1].name == SHEAR]
+    left = [chain for chain in left_to_do(folder, request)[1] if chain[-1].frames]
     return int(len(left) * request.model.ngrains * request.model.discs * BYTES_PER_FRAME_AND_DISC * frames)
 
 
 def _common(request: Request, place: Path) -> dict[str, str]:
     common = {
         "model": request.model.name,
-        "models": _folder_from(place, request.model.path.parent, f"model {request.model.path}"),
+        "models": _folder_from(place, request.model.path, "model"),
         "seed": str(request.seed),
         "law": request.law,
         "dt": request.dt,
@@ -190,22 +188,18 @@ def _common(request: Request, place: Path) -> dict[str, str]:
     }
     if request.host == LAMMPS:  # lmp_cdem knows where its decks are
         return common
-    decks = HOSTS[request.host].decks
-    return {
-        **common,
-        "decks": _folder_from(place, decks, str(decks)),
-        "dt": "0" if request.dt == "auto" else request.dt,
-    }
+    decks = _folder_from(place, HOSTS[request.host].decks / f"{PACK}.in", "deck")
+    return {**common, "decks": decks, "dt": "0" if request.dt == "auto" else request.dt}
 
 
-def _folder_from(place: Path, folder: Path, what: str) -> str:
-    """A folder as decks can include from there: LAMMPS takes no blanks, but from there may be none."""
-    name = str(folder.resolve())
-    if _has_blank(name):
-        name = os.path.relpath(name, place.resolve())
-    if _has_blank(name):
-        raise InputError(f"{what}: LAMMPS cannot include a file with a blank in its name or that of its folder")
-    return name
+def _folder_from(place: Path, file: Path, what: str) -> str:
+    """The folder of a file as decks can include it from there: LAMMPS takes no blanks, but from there may be none."""
+    folder = str(file.parent.resolve())
+    if _has_blank(folder):
+        folder = os.path.relpath(folder, place.resolve())
+    if _has_blank(folder + file.name):
+        raise InputError(f"{what} {file}: LAMMPS cannot include a file with a blank in its name or that of its folder")
+    return folder
 
 
 def _has_blank(text: str) -> bool:

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from host import ROOT
+from same_grains import Columns, shear_table
 
 SHEARBOX = ROOT / "tools" / "shearbox"
 MODEL = "TypeA_10x5_4-8_1-circle_350"
@@ -27,10 +28,8 @@ def shearbox(out: Path, *options: str) -> str:
     return done.stdout
 
 
-def table(out: Path, sigma: int) -> dict[str, np.ndarray]:
-    with (out / str(sigma) / "shear.dat").open() as stream:
-        names = stream.readline()[1:].split()
-        return dict(zip(names, np.loadtxt(stream).T, strict=True))
+def table(out: Path, sigma: int) -> Columns:
+    return shear_table(out / str(sigma))
 
 
 @pytest.fixture(scope="module", name="done")
