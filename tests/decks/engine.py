@@ -33,6 +33,7 @@ TO_MEASURE = os.environ | {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
     "OMPI_MCA_ess_singleton_isolated": "1",
+    "OMPI_MCA_rmaps_base_oversubscribe": "1",  # no option, since other MPIs' mpirun refuses it
     "OMPI_MCA_pml": "ob1",
     "OMPI_MCA_odls_base_sigkill_timeout": "0",
     "OMPI_MCA_orte_tmpdir_base": SESSIONS.name,
@@ -144,7 +145,7 @@ def start(deck: str, directory: Path, *, ranks: int = 1, **variables: object) ->
     directory.mkdir(parents=True, exist_ok=True)
     (directory / "deck.in").write_text(deck)
     px, py = GRID[ranks]
-    command = ["mpirun", "--oversubscribe", "-np", str(ranks)] if ranks > 1 else []
+    command = ["mpirun", "-np", str(ranks)] if ranks > 1 else []
     command += [str(PROGRAM), "-in", "deck.in", "-nocite"]
     for name, value in ({"decks": DECKS, "px": px, "py": py} | variables).items():
         command += ["-var", name, f"{value:.17g}" if isinstance(value, float) else str(value)]

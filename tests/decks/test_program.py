@@ -61,7 +61,7 @@ def run(
         (cwd / "in.test").write_text(deck)
     command = [str(PROGRAM), "-in", file, "-log", "none", *options]
     if ranks > 1:
-        command = ["mpirun", "--oversubscribe", "-np", str(ranks), *command]
+        command = ["mpirun", "-np", str(ranks), *command]
     return subprocess.run(
         command,
         cwd=cwd,

@@ -48,7 +48,7 @@ def start(deck: str, directory: Path, *, ranks: int = 1, preload: bool = True, *
     """Exit status and output of a deck, whatever comes."""
     directory.mkdir(parents=True, exist_ok=True)
     (directory / "deck.in").write_text(deck)
-    command = ["mpirun", "--oversubscribe", "-np", str(ranks)] if ranks > 1 else []
+    command = ["mpirun", "-np", str(ranks)] if ranks > 1 else []
     command += ["env", f"LD_PRELOAD={LIBRARY}"] if preload else []
     command += [str(PROGRAM), "-in", "deck.in"]
     for name, value in ({"decks": HERE} | variables).items():

@@ -216,6 +216,14 @@ def test_an_engine_that_is_killed_is_named(folder, tmp_path):
     assert "ended by signal 9" in failed.stderr and "The same command goes on" in failed.stderr
 
 
+def test_ranks_are_started_by_words_that_any_mpirun_knows(folder, tmp_path):
+    """MPICH's and Intel's refuse the options of Open MPI's, as this one does."""
+    (tmp_path / "mpirun").write_text('#!/bin/sh\n[ "$1 $2" = "-np 2" ] && shift 2 && exec "$@"\n', encoding="utf-8")
+    (tmp_path / "mpirun").chmod(0o755)
+    done = shearbox(folder, "--ranks", "2", "--stress", "100", PATH=f"{tmp_path}:{os.environ['PATH']}")
+    assert done.returncode == 0, done.stderr
+
+
 def test_an_engine_that_writes_nothing_is_found_out(folder):
     failed = shearbox(folder, "--engine", "/bin/true")
     assert failed.returncode == 1

@@ -21,6 +21,13 @@ ENDED_FROM_OUTSIDE = {sign for number in (signal.SIGKILL, signal.SIGTERM, signal
                       for sign in (int(number), -128 - number)}  # fmt: skip
 _LIBC = ctypes.CDLL(None)
 _PR_SET_PDEATHSIG = 1  # of <sys/prctl.h>
+# Of Open MPI 4 and 5: several runs share a machine, so ranks may be more than cores, and none is bound to one.
+_OPEN_MPI = {
+    "OMPI_MCA_rmaps_base_oversubscribe": "1",
+    "OMPI_MCA_hwloc_base_binding_policy": "none",
+    "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
+    "PRTE_MCA_hwloc_default_binding_policy": "none",
+}
 
 
 @dataclass(frozen=True)
@@ -40,7 +47,7 @@ class Engine:
 
     def command(self, phase: Phase) -> list[str]:
         """The command line; variables in the order of the phase."""
-        mpi = ["mpirun", "-np", str(self.ranks), "--oversubscribe", "--bind-to", "none"] if self.ranks > 1 else []
+        mpi = ["mpirun", "-np", str(self.ranks)] if self.ranks > 1 else []  # what all of them know; more: _environment
         variables = [word for name, value in phase.variables.items() for word in ("-var", name, value)]
         return [
             *mpi,
@@ -145,4 +152,4 @@ def _rotate(path: Path) -> None:
 
 def _environment() -> dict[str, str]:
     root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"} if os.geteuid() == 0 else {}
-    return {"OMP_NUM_THREADS": "1", **root}
+    return {"OMP_NUM_THREADS": "1", **_OPEN_MPI, **root}
