@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from engine import run
+from engine import run, start
 
 ROOT = Path(__file__).resolve().parents[2]
 INPUT = ROOT / "input"
@@ -69,6 +69,27 @@ def test_the_tables(folder: Path) -> None:
     work = 0.01 * WIDTH * (pushed - lifted)  # J, on an area in m^2: kPa mm are J/m^2
     assert work == pytest.approx(shear["work_J"][-1] - shear["work_J"][0], rel=0.1)
     assert np.all(np.abs(shear["residual_J"]) < 0.01 * shear["work_J"][-1])
+
+
+@pytest.mark.parametrize(
+    ("deck", "name", "value"),
+    [("consolidate", "ngrains", 41), ("consolidate", "dmin", 1.9e-3), ("shear", "width", 0.031), ("shear", "half_height", 0.0121)],
+)  # fmt: skip
+def test_a_specimen_of_another_model_is_refused(folder: Path, deck: str, name: str, value: float) -> None:
+    """The lid would press by another width, and solid fractions would be those of another box."""
+    text = (INPUT / f"{deck}.in").read_text()
+    options: dict[str, Any] = TEST | {"models": folder, name: value}
+    status, output = start(text, folder, **options)
+    assert status != 0 and "ERROR: this is a specimen of another model than crosses" in output
+    assert "are 40, 30000, 12000, 4000; those of the model are" in output  # the circle of a cross is 4 mm wide
+
+
+@pytest.mark.parametrize("sigma", [98, 200])
+def test_a_specimen_of_another_stress_is_refused(folder: Path, sigma: float) -> None:
+    """The lid would sink, or rise, as shear begins."""
+    options: dict[str, Any] = TEST | {"models": folder, "sigma": sigma}
+    status, output = start(SHEAR, folder, **options)
+    assert status != 0 and f"was not consolidated with sigma {sigma} kPa: its lid bears 1" in output
 
 
 def test_stresses_are_in_balance(folder: Path) -> None:
