@@ -122,3 +122,11 @@ def test_options_are_refused_where_the_record_tells(tmp_path, capsys):
     (tmp_path / "run.json").write_text("{}", encoding="utf-8")
     status, message = shearbox(capsys, str(tmp_path), "--speed", "2")
     assert status == 2 and "--speed 2.0: run.json tells it" in message
+
+
+def test_the_folder_one_is_in_has_a_name(tmp_path, capsys, monkeypatch):
+    place = write_test(tmp_path / "test 7", 100, packing=None)
+    monkeypatch.chdir(place)
+    assert cli.main(["report", "."]) == 0
+    (ensemble,) = json.loads((place / "summary.json").read_text(encoding="utf-8"))["ensembles"]
+    assert ensemble["notes"][0].startswith("test 7: run by hand")

@@ -245,7 +245,7 @@ def test_the_page_is_well_formed_and_its_links_lead_somewhere(folder):
         "standard error of the mean",
         "standard deviation from specimen to specimen",
         "fit alone",
-        "Eight packings",
+        "packings of this model",
     ):
         assert words in " ".join(page.text.split()), words
 

@@ -162,11 +162,14 @@ def test_nonsense_is_refused(run, capsys, words, message):
     assert re.search(message, capsys.readouterr().err)
 
 
-def test_ffmpeg_is_named_where_it_is_missing(run, capsys, monkeypatch):
+def test_without_ffmpeg(run, capsys, monkeypatch):
+    """What needs it is refused; nothing else is asked for than what there can be."""
     monkeypatch.setenv("PATH", "")
-    assert main(["film", str(run)]) == 2
+    assert main(["film", str(run), "--format", "mp4"]) == 2
     said = capsys.readouterr().err
     assert said == "shearbox: --format mp4 needs ffmpeg: apt-get install ffmpeg; --format gif does not\n"
+    assert main(["film", str(run), "--stress", "200", "--frames", "-1"]) == 0
+    assert (run / "200" / "film.gif").stat().st_size > 1000
 
 
 def test_what_cannot_be_filmed(run, tmp_path, capsys):

@@ -185,10 +185,11 @@ def test_area_of_a_grain(shape, area):
     [
         ("0 0 1\n3 0 1\n", "disc 2 is disconnected from disc 1"),
         ("0 0 1\n0 .2 .5\n", "disc 2 is a duplicate of, or lies inside, disc 1"),
-        ("0 0 1\n1 0 0\n", "disc 2 has the radius 0"),
-        ("0 0 1\n1 0\n", "line 2: 'x y r' of a disc is expected, not '1 0'"),
-        ("0 0 1\n1 0 one\n", "'one' is not a number"),
-        ("0 0 1\n1 0 nan\n", "'nan' is not a number"),
+        ("0 0 1\n1 0 0\n", "line 2: 'x y r' of a disc with r > 0 is expected, not '1 0 0'"),
+        ("0 0 1\n# two\n1 0 -.8\n", "line 3: 'x y r' of a disc with r > 0 is expected, not '1 0 -.8'"),
+        ("0 0 1\n1 0\n", "line 2: 'x y r' of a disc with r > 0 is expected, not '1 0'"),
+        ("0 0 1\n1 0 one\n", "line 2: 'x y r' of a disc with r > 0 is expected, not '1 0 one'"),
+        ("0 0 1\n1 0 nan\n", "line 2: 'x y r' of a disc with r > 0 is expected, not '1 0 nan'"),
         ("# nothing\n", "it has 0 discs, 1 to 1000 are allowed"),
     ],
 )

@@ -207,6 +207,15 @@ def test_a_failed_packing_ends_the_run(folder):
     assert not (folder / "100").exists()
 
 
+def test_a_run_that_has_come_to_nothing_makes_room(folder):
+    """Its time step, say, was refused by the engine."""
+    assert shearbox(folder, "--engine", "/bin/false", "--dt", "1e-5").returncode == 1
+    assert (folder / "run.json").exists()
+    done = shearbox(folder, "--stress", "100")
+    assert done.returncode == 0, done.stderr
+    assert json.loads((folder / "run.json").read_text(encoding="utf-8"))["identity"]["dt"] == "auto"
+
+
 def test_an_engine_that_is_killed_is_named(folder, tmp_path):
     engine = tmp_path / "engine"
     engine.write_text("#!/bin/sh\nkill -9 $$\n", encoding="utf-8")

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Coulomb's line against closed forms and against its own coverage."""
 
+import csv
+import statistics
+from pathlib import Path
+
 import numpy as np
 import pytest
-
-from shearbox_tools.strength import fit_line
+from shearbox_tools.models import model_files
+from shearbox_tools.strength import fit_line, known_scatter
 
 SIGMA = np.array([100.0, 200, 300, 400])
 
@@ -50,3 +54,24 @@ def test_interval_holds_the_truth_in_95_of_100():
         line = fit_line(SIGMA, 0.5 * SIGMA + rng.normal(size=4) * 8, np.full(4, 1.0))
         hits += abs(line.c_kPa) < line.c_half_width_kPa
     assert 930 <= hits <= 970
+
+
+@pytest.mark.parametrize("model", sorted(path.stem for path in model_files()))
+def test_the_known_scatter_is_that_of_the_study(model: str) -> None:
+    """Of the models with four specimens and more."""
+    table = Path(__file__).resolve().parents[2] / "examples" / "paper" / "measured" / "specimens.csv"
+    kind, _, sizes, discs, _ = model.replace("Type", "").split("_")
+    entry = f"{kind}_{sizes}" + "_triple" * (discs == "3-circle")
+    rows = [
+        row
+        for row in csv.DictReader(table.open(encoding="utf-8"))
+        if (row["campaign"], row["entry"]) == ("smooth", entry)
+    ]
+    phi = list({row["seed"]: float(row["phi"]) for row in rows}.values())
+    said = (
+        f"{len(phi)} packings of this model had φ from {min(phi):.0f} to {max(phi):.0f}°"
+        if len(phi) > 3
+        else "not known"
+    )
+    assert said in known_scatter(model)
+    assert len(phi) < 4 or f"standard deviation {statistics.stdev(phi):.1f}°" in known_scatter(model)

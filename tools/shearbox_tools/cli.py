@@ -198,6 +198,12 @@ def _stress(text: str) -> float:
         raise argparse.ArgumentTypeError(f"{text!r} is not a number of kPa.{hint}") from None
 
 
+def _named_folder(text: str) -> Path:
+    """Reports and films call runs by the names of their folders, which . and .. have not."""
+    folder = Path(text)
+    return folder if folder.name not in ("", "..") else folder.resolve()
+
+
 def _seeds(text: str) -> int | range:
     first, dash, last = text.partition("-")
     try:
@@ -226,7 +232,7 @@ def _add_report(commands: Commands) -> None:
         "report, too. Tests that were run with the decks by hand are folders with a shear.dat, and the engine's log beside it.",
     )
     report.add_argument(
-        "folder", metavar="DIR", type=Path, help="folder given to 'shearbox run --out', or above several"
+        "folder", metavar="DIR", type=_named_folder, help="folder given to 'shearbox run --out', or above several"
     )
     report.add_argument(
         "--model", metavar="MODEL", help="of tests run by hand whose log is lost: name or file of the model"
@@ -244,7 +250,7 @@ def _add_compare(commands: Commands) -> None:
         description="Write compare.html, compare.json and compare.csv: mean curves of the ensembles in the folders over each other, "
         "strength, dilation angle and TRM, and their differences to the first with 95 % intervals.",
     )
-    compare.add_argument("folders", metavar="DIR", type=Path, nargs="+", help="folder of a run, or of several")
+    compare.add_argument("folders", metavar="DIR", type=_named_folder, nargs="+", help="folder of a run, or of several")
     compare.add_argument(
         "--out", metavar="OUT", type=Path, default=Path("compare"), help="folder of the files (default: compare)"
     )
@@ -259,7 +265,7 @@ def _add_export(commands: Commands) -> None:
         "and their times in frames.csv. vtk: VTK's XML files, and a series NAME.pvd that ParaView opens; ovito: dumps with an "
         "id for each disc, and contacts with vectors; csv; parquet. SI units.",
     )
-    export.add_argument("folder", metavar="DIR", type=Path, help="folder of runs, or of tests by hand")
+    export.add_argument("folder", metavar="DIR", type=_named_folder, help="folder of runs, or of tests by hand")
     export.add_argument("--to", choices=FORMATS, required=True, help="format")
     export.add_argument("--out", metavar="OUT", type=Path, help="folder of the files (default: DIR/export)")
     _add_stress_and_frames(export)
@@ -280,11 +286,11 @@ def _add_film(commands: Commands) -> None:
         description="Make a film of each test in DIR: the specimen to scale, and shear stress and lid as far as they have come. "
         "It is STRESS/film.FORMAT, or film_speed.FORMAT and so on.",
     )
-    film.add_argument("folder", metavar="DIR", type=Path, help="folder of runs, or of tests by hand")
+    film.add_argument("folder", metavar="DIR", type=_named_folder, help="folder of runs, or of tests by hand")
     film.add_argument("--by", choices=COLOURINGS, default=COLOURINGS[0],
                       help="what grains are coloured by; chains: lines as wide as forces are great (default: rotation)")  # fmt: skip
-    film.add_argument("--format", choices=FILMS, default=FILMS[0],
-                      help="mp4 (H.264) and webm need ffmpeg, gif does not (default: mp4)")  # fmt: skip
+    film.add_argument("--format", choices=FILMS,
+                      help="mp4 (H.264) and webm need ffmpeg, gif does not (default: mp4, or gif where there is no ffmpeg)")  # fmt: skip
     _add_stress_and_frames(film)
     film.set_defaults(command=_film)
 
@@ -387,7 +393,10 @@ def _report(options: argparse.Namespace) -> None:
 def _compare(options: argparse.Namespace) -> None:
     from .comparing import compare
 
-    print(f"compare: {compare(options.folders, options.out)}")
+    page, doubts = compare(options.folders, options.out)
+    for doubt in doubts:
+        print(f"no φ and c of {doubt}")
+    print(f"compare: {page}")
 
 
 def _export(options: argparse.Namespace) -> None:

@@ -37,8 +37,9 @@ class Member:
     ensemble: Ensemble
 
 
-def compare(folders: Sequence[Path], out: Path) -> Path:
-    """Compare the ensembles in the folders, each of which holds one or several; the page's path is returned.
+def compare(folders: Sequence[Path], out: Path) -> tuple[Path, list[str]]:
+    """Compare the ensembles in the folders, each of which holds one or several; the page's path is returned, and
+    why some of them have no φ and c.
 
     Raises ShearboxError without writing if there are not at least two, or more than curves can be told apart.
     """
@@ -59,7 +60,12 @@ def compare(folders: Sequence[Path], out: Path) -> Path:
         raise ShearboxError(
             "\n".join([f"2 to {len(ALL_LOOKS)} ensembles are compared, there are {len(members)}", *there, *reasons])
         )
-    return write_comparison(members, left_out, out)
+    doubts = [
+        f"{name} ({member.folder}): {doubt}"
+        for name, member in zip(string.ascii_uppercase, members)
+        for doubt in member.ensemble.doubts
+    ]
+    return write_comparison(members, left_out, out), doubts
 
 
 def write_comparison(members: Sequence[Member], left_out: Sequence[LeftOut], out: Path) -> Path:

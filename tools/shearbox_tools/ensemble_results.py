@@ -214,7 +214,7 @@ def _dilates(shears: Sequence[Shear]) -> Verdict:
     if rise is None:
         return shears[0].verdicts["dilates"]
     reason = (
-        f"lid at the peak {rise.value:+.3f} mm, 95 % interval of the mean from {told_apart(float(rise.low), 0, 3, '+')} (> 0) "
-        f"to {rise.high:+.3f} mm"
+        f"lid at the peak {rise.value:+.3f} mm, 95 % interval of the mean from {told_apart(float(rise.low), 0, 3, '+')} "
+        f"to {rise.high:+.3f} mm (all of it > 0)"
     )
     return Verdict(None if rise.low <= 0 < rise.high else bool(rise.low > 0), reason)

@@ -15,7 +15,7 @@ from .grouping import LeftOut, settings_of, what_differs
 from .peak import Peak
 from .results import Results
 from .shear import Shear
-from .strength import COVERAGE, KNOWN_SCATTER
+from .strength import COVERAGE, known_scatter
 from .stress_dilatancy import Dilatant
 from .summary import of_line, plain
 
@@ -32,7 +32,6 @@ def summarise_all(
             ],
             "left_out": [{"folder": _from(folder, one.folder), "reason": one.reason} for one in left_out],
             "coverage": COVERAGE,
-            "known_scatter": KNOWN_SCATTER,
             "shearbox": __version__,
         }
     )
@@ -48,6 +47,7 @@ def _ensemble(folder: Path, ensemble: Ensemble) -> dict[str, Any]:
         **_strength(ensemble.smoothed_strength, "_smoothed"),
         **_strength(ensemble.plane_strength, "_plane"),
         "fit_alone": _fit_alone(ensemble),
+        "known_scatter": known_scatter(ensemble.identity["model"]),
         "phi_ultimate_deg": _estimate(ensemble.ultimate_angle),
         "dilation_at_peak_deg": _estimate(ensemble.over_specimens(lambda shear: shear.at_peak.dilation_deg)),
         "phi_cv_at_end_deg": {name: _estimate(ensemble.critical_at_end(name)) for name in RELATIONS},

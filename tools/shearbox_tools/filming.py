@@ -56,15 +56,17 @@ class Shot:
         return begin, end
 
 
-def make_films(folder: Path, by: str, form: str, stresses: Sequence[float], frames: str | None) -> list[Path]:
+def make_films(folder: Path, by: str, form: str | None, stresses: Sequence[float], frames: str | None) -> list[Path]:
     """Film all tests in a folder, or those of the stresses (kPa), by rotation, speed, stress or chains; the files written
     are returned.
 
-    frames: see `selection.choose`. What cannot be done is refused before anything is written; a film is whole or not there.
+    form: mp4, webm or gif; None: mp4, or gif where there is no ffmpeg. frames: see `selection.choose`. What cannot be done is refused before anything is written; a film is whole or not there.
     """
-    if form in CODECS and not shutil.which("ffmpeg"):
-        raise InputError(f"--format {form} needs ffmpeg: apt-get install ffmpeg; --format gif does not")
     shots = [_prepare(place, by, frames) for place in find_tests(folder, stresses)]
+    has_ffmpeg = shutil.which("ffmpeg") is not None
+    if form in CODECS and not has_ffmpeg:
+        raise InputError(f"--format {form} needs ffmpeg: apt-get install ffmpeg; --format gif does not")
+    form = form or ("mp4" if has_ffmpeg else "gif")
     labels = [str(shot.place.relative_to(folder)) for shot in shots]
     ends = [shot.ends for shot in shots]
     whole = Whole(

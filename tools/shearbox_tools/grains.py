@@ -74,10 +74,20 @@ def _discs_in(source: Path) -> list[str]:
     words: list[str] = []
     for count, line in enumerate(lines, start=1):
         row = line.split("#")[0].split()
-        if len(row) not in (0, 3) or not line.replace("\t", " ").rstrip("\r").isprintable():
-            raise ShearboxError(f"{source}, line {count}: 'x y r' of a disc is expected, not {line.strip()[:60]!r}")
+        if not (_is_disc(row) or not row) or not line.replace("\t", " ").rstrip("\r").isprintable():
+            raise ShearboxError(
+                f"{source}, line {count}: 'x y r' of a disc with r > 0 is expected, not {line.strip()[:60]!r}"
+            )
         words += row
     return words
+
+
+def _is_disc(row: list[str]) -> bool:
+    try:
+        _, _, radius = map(number, row)
+    except ValueError:
+        return False
+    return radius > 0
 
 
 def _check(discs: np.ndarray) -> None:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The variables that a run may set: input/parameters.in says what each is and, in [ ], what it may be."""
 
+import difflib
 import math
 import re
 from dataclasses import dataclass
@@ -93,7 +94,8 @@ def read_settings(texts: list[str], own_option: dict[str, str]) -> dict[str, str
         elif name in own_option:
             problems.append(f"--set {text}: the option for this is {own_option[name]}")
         elif name not in known:
-            problems.append(f"--set {text}: there is no parameter {name}; 'shearbox parameters' lists them")
+            close = "".join(f", did you mean {other}" for other in difflib.get_close_matches(name, known, 1))
+            problems.append(f"--set {text}: there is no parameter {name}{close}; 'shearbox parameters' lists them")
         elif name in settings:
             problems.append(f"--set {text}: {name} is set twice")
         elif problem := known[name].problem(value):

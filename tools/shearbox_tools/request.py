@@ -3,14 +3,15 @@
 
 import json
 import math
+import re
 import shlex
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, NoReturn
 
 from .errors import InputError, ShearboxError
-from .files import DRAFT, LOCK, PACKED, RECORD, write_json, write_text
-from .models import PARAMETERS, Model, find_model, read_variables
+from .files import DRAFT, LOCK, PACKED, RECORD, TIMINGS, write_json, write_text
+from .models import PARAMETERS, SUFFIX, Model, find_model, read_variables
 from .parameters import canonical, of_model, parameters
 from .presets import HOSTS, LAMMPS, STRESSES
 
@@ -68,7 +69,10 @@ def check_folder(folder: Path, request: Request) -> set[float]:
     if (folder / RECORD).exists():
         known = read_record(folder)
         there, asked = known["identity"], _identity(request)
-        if differences := _differences(there, asked):
+        differences = _differences(there, asked)
+        if differences and _came_to_nothing(folder):
+            return set()
+        if differences:
             advice = f"To go on with what is there: shearbox run {shlex.quote(str(folder))}. Else take another --out."
             if there["parameters"].keys() != asked["parameters"].keys():
                 advice = f"Another version began it, with other variables in {PARAMETERS.name}. Take another --out."
@@ -82,6 +86,12 @@ def check_folder(folder: Path, request: Request) -> set[float]:
     if folder.is_dir() and {path.name for path in folder.iterdir()} - ours:
         raise InputError(f"--out {folder}: this folder holds something else than a run (there is no {RECORD} in it)")
     return set()
+
+
+def _came_to_nothing(folder: Path) -> bool:
+    """Whether a run has left no more than logs, as with a time step that the engine refuses."""
+    nothing = re.compile(rf"{RECORD}|{TIMINGS}|{LOCK}|.*\{SUFFIX}|.*\.(log|out)(\.\d+)?")
+    return all(path.is_dir() or nothing.fullmatch(path.name) for path in folder.rglob("*"))
 
 
 def open_folder(folder: Path, request: Request) -> None:

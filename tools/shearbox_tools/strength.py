@@ -7,8 +7,14 @@ import numpy as np
 from scipy.special import ndtri, stdtrit
 
 COVERAGE = 0.95
-# tests/validation/walls; packed with the decks of commit 4378ba9, those of now show no other scatter (tests/validation/packing)
-KNOWN_SCATTER = "Eight packings of 350 single discs of 4 to 8 mm had φ from 29 to 37°, standard deviation 2.7°."
+# of examples/paper/measured/specimens.csv: packings, least and greatest φ and its standard deviation, °
+_SCATTER = {
+    "TypeA_10x5_4-8_1-circle_350": (8, 30, 44, 4.8),
+    "TypeB_15x5_4-8_1-circle_550": (8, 30, 35, 1.6),
+    "TypeC_20x10_4-8_1-circle_1500": (4, 31, 32, 0.4),
+    "TypeA_10x5_2-4_1-circle_1500": (8, 24, 32, 2.5),
+    "TypeA_10x5_2-4_3-circle_350": (8, 43, 56, 4.9),
+}
 
 
 @dataclass(frozen=True)
@@ -30,6 +36,14 @@ class Line:
         """Half-width (kPa) of the 95 % band of the line at sigma (kPa)."""
         design = np.column_stack([np.ones_like(sigma), sigma])
         return self.quantile * np.sqrt(np.einsum("ij,jk,ik->i", design, self.covariance, design))
+
+
+def known_scatter(model: str) -> str:
+    """What is known of how specimens of a model differ from one to the next."""
+    if model not in _SCATTER:
+        return "How specimens of this model differ is not known; --seeds 8 tells."
+    count, least, greatest, deviation = _SCATTER[model]
+    return f"{count} packings of this model had φ from {least} to {greatest}°, standard deviation {deviation}°."
 
 
 def student_quantile(freedom: float) -> float:
