@@ -15,9 +15,9 @@ import pytest
 import synthetic
 from shearbox_tools.ensemble_results import INDEPENDENT, SHARED, Ensemble
 from shearbox_tools.errors import ShearboxError
-from shearbox_tools.grouping import put_together, what_differs
+from shearbox_tools.grouping import put_together, what_differs, what_is_set
 from shearbox_tools.mean_curve import average
-from shearbox_tools.models import find_model
+from shearbox_tools.models import PARAMETERS, find_model, read_variables
 from shearbox_tools.reporting import report_on
 from shearbox_tools.request import Request
 from shearbox_tools.results import Results, read_results
@@ -298,3 +298,11 @@ def test_a_folder_that_cannot_be_read_is_named(folder, monkeypatch):
     monkeypatch.setattr(os, "scandir", locked)
     with pytest.raises(ShearboxError, match="slow: this folder cannot be read: Permission denied"):
         find_runs(folder)
+
+
+def test_parameters_that_are_not_the_usual_ones_are_told():
+    usual = read_variables(PARAMETERS)
+    ensemble = SimpleNamespace(
+        identity={"parameters": usual | {"phi": "35.0", "kn": "1e8"}}
+    )  # kn as it is, in other words
+    assert what_is_set(ensemble) == "phi 35"

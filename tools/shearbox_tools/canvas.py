@@ -65,7 +65,7 @@ def furnish(axes: Axes, low: np.ndarray, high: np.ndarray) -> None:
     draw_key(axes, (0.02, 0.02 + bar / (1000 * width)), f"{bar:g} mm", lw=2.5, color=INK, capstyle="butt")
     middle = STRIP * width / height / 2
     axes.annotate(
-        "shear", (0.66, middle), (0.45, middle), xycoords="axes fraction", va="center", fontsize=STRIP_FONT, color=INK,
+        "shear", (0.61, middle), (0.41, middle), xycoords="axes fraction", va="center", fontsize=STRIP_FONT, color=INK,
         arrowprops={"arrowstyle": "-|>", "lw": 1.8, "color": INK, "mutation_scale": 16},
     )  # fmt: skip
 

@@ -89,7 +89,7 @@ def draw_chains(axes: Axes, moment: Moment, widest: float) -> None:
     style = {"colors": FORCE_COLOUR, "capstyle": "round", "joinstyle": "round"}
     axes.add_collection(LineCollection(lines, linewidths=widths, **style))
     key = round_down(widest / 2)
-    draw_key(axes, (0.7, 0.78), f"{key:g} N", lw=WIDEST_LINE * key / widest, color=FORCE_COLOUR)
+    draw_key(axes, (0.65, 0.73), f"{key:g} N", lw=WIDEST_LINE * key / widest, color=FORCE_COLOUR)
 
 
 def extent(moments: list[Moment]) -> tuple[np.ndarray, np.ndarray]:

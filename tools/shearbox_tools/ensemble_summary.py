@@ -11,7 +11,7 @@ from . import __version__
 from .ensemble import EnsembleStrength, Estimate
 from .ensemble_results import FEATURES, RELATIONS, Ensemble, estimate
 from .files import PAGE
-from .grouping import LeftOut, settings_of, what_differs
+from .grouping import LeftOut, settings_of, what_differs, what_is_set
 from .peak import Peak
 from .results import Results
 from .shear import Shear
@@ -41,6 +41,7 @@ def _ensemble(folder: Path, ensemble: Ensemble) -> dict[str, Any]:
     return {
         "model": ensemble.identity["model"],
         "specimens": [_specimen(folder, run) for run in ensemble.specimens],
+        "parameters_set": what_is_set(ensemble),
         "packings": ensemble.model,
         "doubts": ensemble.doubts,
         **_strength(ensemble.strength, ""),

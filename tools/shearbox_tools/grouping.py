@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from .ensemble_results import Ensemble
+from .models import PARAMETERS, read_variables
 from .parameters import canonical
 from .results import Results
 
@@ -54,6 +55,13 @@ def what_differs(ensembles: Sequence[Ensemble]) -> list[str]:
         if not name.startswith("model") and len({one[name] for one in settings if name in one}) > 1
     ]
     return [", ".join(_named(name, one[name]) for name in names if name in one) for one in settings]
+
+
+def what_is_set(ensemble: Ensemble) -> str:
+    """Parameters that are not as parameters.in has them now."""
+    usual = {name: canonical(value) for name, value in read_variables(PARAMETERS).items()}
+    there = {name: canonical(str(value)) for name, value in ensemble.identity["parameters"].items()}
+    return ", ".join(_named(name, value) for name, value in there.items() if value != usual.get(name))
 
 
 def _named(name: str, value: str) -> str:

@@ -112,7 +112,7 @@ def _draw_crosses(axes: Axes, fields: Fields, largest: float) -> None:
         axes.add_collection(LineCollection(lines, colors=colour, linewidths=width, capstyle="round"))
     key = round_down(largest)
     length = key / largest * longest / np.ptp(axes.get_xlim())
-    draw_key(axes, (0.7, 0.7 + length), f"{key:g} kPa", lw=1.3, color=INK)
+    draw_key(axes, (0.65, 0.65 + length), f"{key:g} kPa", lw=1.3, color=INK)
 
 
 def _middles(edges: np.ndarray) -> np.ndarray:
