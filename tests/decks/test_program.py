@@ -219,9 +219,14 @@ int lammps_extract_setting(void *lmp, const char *name) { return name[0] == 't' 
 int lammps_config_has_mpi_support(void) { return MPI; }
 int MPI_Get_library_version(char *name, int *length) { return *length = sprintf(name, "MPICH Version:\\t5.0.2"); }
 """
+BIGBIG = "LAMMPS_SIZES:STRING=BIGBIG" in PROGRAM.with_name("CMakeCache.txt").read_text(encoding="utf-8")
+IDS, OTHER_IDS = (8, 4) if BIGBIG else (4, 8)
 REFUSED: dict[str, tuple[dict[str, int], str]] = {
     "version": ({"VERSION": 20000101}, r"compiled for LAMMPS 20\d{6}, but this is LAMMPS 20000101"),
-    "ids": ({"TAGINT": 8}, "ids of 32 bits, but those of this LAMMPS have 64: .* -DLAMMPS_SIZES=BIGBIG"),
+    "ids": (
+        {"TAGINT": OTHER_IDS},
+        f"ids of {8 * IDS} bits, but those of this LAMMPS have {8 * OTHER_IDS}: .* -DLAMMPS_SIZES=",
+    ),
     "no MPI": ({"MPI": 0}, "compiled with Open MPI, but this LAMMPS has no MPI"),
     "other MPI": ({}, "compiled with Open MPI, but this LAMMPS runs with MPICH Version: 5.0.2"),
 }
@@ -238,7 +243,7 @@ def plugin_refusal(stranger: str) -> None:
 def test_plugin_refuses_another_lammps(tmp_path: Path, case: str) -> None:
     other, message = REFUSED[case]
     version = re.findall(r"^version (\d+)", run(tmp_path, 'print "version $(version)"').stdout, re.M)[0]
-    answers = {"VERSION": version, "TAGINT": 4, "MPI": 8} | other
+    answers = {"VERSION": version, "TAGINT": IDS, "MPI": 8} | other
     source, library = tmp_path / "stranger.c", tmp_path / "stranger.so"
     source.write_text(STRANGER)
     defines = [f"-D{name}={value}" for name, value in answers.items()]
