@@ -33,7 +33,9 @@ TO_MEASURE = os.environ | {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
     "OMPI_MCA_ess_singleton_isolated": "1",
-    "OMPI_MCA_rmaps_base_oversubscribe": "1",  # no option, since other MPIs' mpirun refuses it
+    "OMPI_MCA_rmaps_base_oversubscribe": "1",  # no options, since other MPIs' mpirun refuses them
+    "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",  # of Open MPI 5
+    "PRTE_MCA_hwloc_default_binding_policy": "none",
     "OMPI_MCA_pml": "ob1",
     "OMPI_MCA_odls_base_sigkill_timeout": "0",
     "OMPI_MCA_orte_tmpdir_base": SESSIONS.name,

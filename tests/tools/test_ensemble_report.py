@@ -19,7 +19,7 @@ from shearbox_tools.grouping import put_together, what_differs, what_is_set
 from shearbox_tools.mean_curve import average
 from shearbox_tools.models import PARAMETERS, find_model, read_variables
 from shearbox_tools.reporting import report_on
-from shearbox_tools.request import Request
+from shearbox_tools.request import OWN_OPTION, Request
 from shearbox_tools.results import Results, read_results
 from shearbox_tools.shear import Shear
 from shearbox_tools.specimens import find_runs
@@ -245,7 +245,7 @@ def test_the_page_is_well_formed_and_its_links_lead_somewhere(folder):
         "standard error of the mean",
         "standard deviation from specimen to specimen",
         "fit alone",
-        "packings of this model",
+        "packings of this model, with",
     ):
         assert words in " ".join(page.text.split()), words
 
@@ -300,9 +300,8 @@ def test_a_folder_that_cannot_be_read_is_named(folder, monkeypatch):
         find_runs(folder)
 
 
-def test_parameters_that_are_not_the_usual_ones_are_told():
+def test_what_is_set_is_told():
     usual = read_variables(PARAMETERS)
-    ensemble = SimpleNamespace(
-        identity={"parameters": usual | {"phi": "35.0", "kn": "1e8"}}
-    )  # kn as it is, in other words
-    assert what_is_set(ensemble) == "phi 35"
+    of_file = {name: value for name, value in usual.items() if name not in OWN_OPTION}
+    identity = REQUEST.identity(of_file | {"phi": "35.0", "kn": "1e8"})  # kn as it is, in other words
+    assert what_is_set(SimpleNamespace(identity=identity | {"stiffness": 0.1})) == "stiffness 0.1, phi 35"

@@ -207,13 +207,12 @@ def test_a_failed_packing_ends_the_run(folder):
     assert not (folder / "100").exists()
 
 
-def test_a_run_that_has_come_to_nothing_makes_room(folder):
-    """Its time step, say, was refused by the engine."""
+def test_a_run_that_has_come_to_nothing_is_told(folder):
+    """Its time step, say, was refused by the engine: nobody wants to go on with it."""
     assert shearbox(folder, "--engine", "/bin/false", "--dt", "1e-5").returncode == 1
-    assert (folder / "run.json").exists()
-    done = shearbox(folder, "--stress", "100")
-    assert done.returncode == 0, done.stderr
-    assert json.loads((folder / "run.json").read_text(encoding="utf-8"))["identity"]["dt"] == "auto"
+    refused = shearbox(folder, "--stress", "100")
+    assert refused.returncode == 2
+    assert refused.stderr.endswith("It has no results: remove the folder, or take another --out.\n")
 
 
 def test_an_engine_that_is_killed_is_named(folder, tmp_path):

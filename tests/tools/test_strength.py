@@ -69,7 +69,7 @@ def test_the_known_scatter_is_that_of_the_study(model: str) -> None:
     ]
     phi = list({row["seed"]: float(row["phi"]) for row in rows}.values())
     said = (
-        f"{len(phi)} packings of this model had φ from {min(phi):.0f} to {max(phi):.0f}°"
+        f"{len(phi)} packings of this model, with the parameters of the decks, had φ from {min(phi):.0f} to {max(phi):.0f}°"
         if len(phi) > 3
         else "not known"
     )

@@ -67,7 +67,7 @@ def make_films(folder: Path, by: str, form: str | None, stresses: Sequence[float
     if form in CODECS and not has_ffmpeg:
         raise InputError(f"--format {form} needs ffmpeg: apt-get install ffmpeg; --format gif does not")
     form = form or ("mp4" if has_ffmpeg else "gif")
-    labels = [str(shot.place.relative_to(folder)) for shot in shots]
+    labels = [str(shot.place.relative_to(folder.parent if shot.place == folder else folder)) for shot in shots]
     ends = [shot.ends for shot in shots]
     whole = Whole(
         {label: len(shot.steps) for label, shot in zip(labels, shots)},

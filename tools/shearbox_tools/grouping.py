@@ -57,10 +57,13 @@ def what_differs(ensembles: Sequence[Ensemble]) -> list[str]:
     return [", ".join(_named(name, one[name]) for name in names if name in one) for one in settings]
 
 
+_ELSEWHERE = ("model", "speed_mm_s", "travel_mm", "law")
+
+
 def what_is_set(ensemble: Ensemble) -> str:
-    """Parameters that are not as parameters.in has them now."""
+    """Settings that are not as parameters.in has them now; size of the grains, speed, travel and law are told elsewhere."""
     usual = {name: canonical(value) for name, value in read_variables(PARAMETERS).items()}
-    there = {name: canonical(str(value)) for name, value in ensemble.identity["parameters"].items()}
+    there = {name: value for name, value in settings_of(ensemble.identity).items() if not name.startswith(_ELSEWHERE)}
     return ", ".join(_named(name, value) for name, value in there.items() if value != usual.get(name))
 
 

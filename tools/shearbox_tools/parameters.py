@@ -94,7 +94,10 @@ def read_settings(texts: list[str], own_option: dict[str, str]) -> dict[str, str
         elif name in own_option:
             problems.append(f"--set {text}: the option for this is {own_option[name]}")
         elif name not in known:
-            close = "".join(f", did you mean {other}" for other in difflib.get_close_matches(name, known, 1))
+            close = "".join(
+                f", did you mean {other}"
+                for other in difflib.get_close_matches(name, known.keys() - own_option.keys(), 1)
+            )
             problems.append(f"--set {text}: there is no parameter {name}{close}; 'shearbox parameters' lists them")
         elif name in settings:
             problems.append(f"--set {text}: {name} is set twice")

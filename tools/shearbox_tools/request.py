@@ -69,13 +69,12 @@ def check_folder(folder: Path, request: Request) -> set[float]:
     if (folder / RECORD).exists():
         known = read_record(folder)
         there, asked = known["identity"], _identity(request)
-        differences = _differences(there, asked)
-        if differences and _came_to_nothing(folder):
-            return set()
-        if differences:
+        if differences := _differences(there, asked):
             advice = f"To go on with what is there: shearbox run {shlex.quote(str(folder))}. Else take another --out."
             if there["parameters"].keys() != asked["parameters"].keys():
                 advice = f"Another version began it, with other variables in {PARAMETERS.name}. Take another --out."
+            if _came_to_nothing(folder):
+                advice = "It has no results: remove the folder, or take another --out."
             raise InputError(f"{folder} holds another run:\n" + "\n".join([*differences, advice]))
         return set(known["stresses"])
     if folder.exists() and not folder.is_dir():

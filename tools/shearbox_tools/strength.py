@@ -43,7 +43,7 @@ def known_scatter(model: str) -> str:
     if model not in _SCATTER:
         return "How specimens of this model differ is not known; --seeds 8 tells."
     count, least, greatest, deviation = _SCATTER[model]
-    return f"{count} packings of this model had φ from {least} to {greatest}°, standard deviation {deviation}°."
+    return f"{count} packings of this model, with the parameters of the decks, had φ from {least} to {greatest}°, standard deviation {deviation}°."
 
 
 def student_quantile(freedom: float) -> float:
