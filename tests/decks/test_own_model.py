@@ -38,6 +38,15 @@ variable power       index 0
 variable ngrains     index {GRAINS}
 variable shape       index "file cross.txt"
 """
+LOOSE = """
+variable width       index 0.05
+variable half_height index 0.025
+variable dmin        index 4e-3
+variable dmax        index 8e-3
+variable power       index -2
+variable ngrains     index 70
+variable shape       index single
+"""
 OPTIONS: dict[str, Any] = {"decks": INPUT, "model": "crosses", "sigma": 100, "seed": 1}
 SHEAR = (INPUT / "shear.in").read_text()
 TEST: dict[str, Any] = OPTIONS | {"speed": 20, "travel": 1, "rows": 20, "frames": 2}
@@ -83,6 +92,29 @@ def test_a_specimen_of_another_model_is_refused(folder: Path, deck: str, name: s
     status, output = start(text, folder, **options)
     assert status != 0 and "ERROR: this is a specimen of another model than crosses" in output
     assert "are 40, 30000, 12000, 4000; those of the model are" in output  # the circle of a cross is 4 mm wide
+
+
+def test_a_floor_of_one_disc(tmp_path: Path) -> None:
+    """From which the width cannot be told: it is not refused."""
+    sizes = {"width": 0.03, "half_height": 0.05, "dmin": 8e-3, "dmax": 9e-3, "ngrains": 36, "wall_disc": 4}
+    options: dict[str, Any] = OPTIONS | {"models": tmp_path, "model": "loose"} | sizes
+    (tmp_path / "loose.in").write_text(LOOSE)
+    for deck in ("pack", "consolidate"):
+        run((INPUT / f"{deck}.in").read_text(), tmp_path, **options)
+
+
+def test_grains_that_pull_have_no_inertial_number(tmp_path: Path) -> None:
+    """Sheared fast under a small stress grains lose each other, and dashpots of those that part pull: the mean stress may be a
+    tension, of which there is no root."""
+    (tmp_path / "loose.in").write_text(LOOSE)
+    options: dict[str, Any] = OPTIONS | {"models": tmp_path, "model": "loose", "sigma": 1}
+    for deck in ("pack", "consolidate"):
+        run((INPUT / f"{deck}.in").read_text(), tmp_path, **options)
+    options |= {"speed": 200, "travel": 3, "frames": 1}
+    run(SHEAR, tmp_path, **options)
+    rows = read_shear(tmp_path / SHEAR_TABLE)
+    pressure = rows["stress_xx_kPa"] + rows["stress_yy_kPa"]
+    assert pressure.min() < 0 and np.all(rows["inertial"][pressure <= 0] == 0)
 
 
 @pytest.mark.parametrize("sigma", [98, 200])

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from engine import DECKS, ENVIRONMENT, PROGRAM, Frame, run
+from engine import DECKS, ENVIRONMENT, PROGRAM, Frame, run, start
 
 ROOT = Path(__file__).resolve().parents[2]
 INPUT = ROOT / "input"
@@ -138,6 +138,9 @@ def test_asked_to_end_it_leaves_a_checkpoint(tmp_path: Path) -> None:
     assert process.wait(60) == 0
     assert "asked to end, it has packed.restart.c of step" in log.read_text(encoding="utf-8")
     assert go_on(tmp_path) == {"from": "c"} and not (tmp_path / PACKED_TABLE).exists()
+    another: dict[str, Any] = options | go_on(tmp_path) | {"width": 0.07}
+    status, output = start(text, tmp_path, **another)
+    assert status != 0 and "ERROR: this is a specimen of another model" in output
     run(text, tmp_path, **options | go_on(tmp_path))
     pack(tmp_path / "whole", name)
     assert read_row(tmp_path / PACKED_TABLE) == read_row(tmp_path / "whole" / PACKED_TABLE)
