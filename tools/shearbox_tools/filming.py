@@ -60,13 +60,15 @@ def make_films(folder: Path, by: str, form: str | None, stresses: Sequence[float
     """Film all tests in a folder, or those of the stresses (kPa), by rotation, speed, stress or chains; the files written
     are returned.
 
-    form: mp4, webm or gif; None: mp4, or gif where there is no ffmpeg. frames: see `selection.choose`. What cannot be done is refused before anything is written; a film is whole or not there.
+    form: mp4, webm or gif; None: mp4, or gif where there is no ffmpeg. frames: see `selection.choose`. What cannot be done
+    is refused before anything is written; a film is whole or not there.
     """
-    shots = [_prepare(place, by, frames) for place in find_tests(folder, stresses)]
+    places = find_tests(folder, stresses)
     has_ffmpeg = shutil.which("ffmpeg") is not None
     if form in CODECS and not has_ffmpeg:
         raise InputError(f"--format {form} needs ffmpeg: apt-get install ffmpeg; --format gif does not")
     form = form or ("mp4" if has_ffmpeg else "gif")
+    shots = [_prepare(place, by, frames) for place in places]
     labels = [str(shot.place.relative_to(folder.parent if shot.place == folder else folder)) for shot in shots]
     ends = [shot.ends for shot in shots]
     whole = Whole(
