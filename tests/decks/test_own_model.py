@@ -52,14 +52,19 @@ SHEAR = (INPUT / "shear.in").read_text()
 TEST: dict[str, Any] = OPTIONS | {"speed": 20, "travel": 1, "rows": 20, "frames": 2}
 
 
+def consolidate(folder: Path, **options: Any) -> None:
+    """Packed first."""
+    for deck in ("pack", "consolidate"):
+        run((INPUT / f"{deck}.in").read_text(), folder, **options)
+
+
 @pytest.fixture(name="folder", scope="module", params=[1, 2], ids="{}-ranks".format)
 def _folder(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Packed, consolidated and sheared by 1 mm, all in one folder."""
     folder = tmp_path_factory.mktemp("own")
     (folder / "cross.txt").write_text(CROSS)
     (folder / "crosses.in").write_text(MODEL)
-    for deck in ("pack", "consolidate"):
-        run((INPUT / f"{deck}.in").read_text(), folder, **OPTIONS, models=folder, ranks=request.param)
+    consolidate(folder, **OPTIONS, models=folder, ranks=request.param)
     run(SHEAR, folder, **TEST, models=folder, ranks=request.param)
     return folder
 
@@ -99,8 +104,7 @@ def test_a_floor_of_one_disc(tmp_path: Path) -> None:
     sizes = {"width": 0.03, "half_height": 0.05, "dmin": 8e-3, "dmax": 9e-3, "ngrains": 36, "wall_disc": 4}
     options: dict[str, Any] = OPTIONS | {"models": tmp_path, "model": "loose"} | sizes
     (tmp_path / "loose.in").write_text(LOOSE)
-    for deck in ("pack", "consolidate"):
-        run((INPUT / f"{deck}.in").read_text(), tmp_path, **options)
+    consolidate(tmp_path, **options)
 
 
 def test_grains_that_pull_have_no_inertial_number(tmp_path: Path) -> None:

@@ -130,9 +130,8 @@ def test_asked_to_end_it_leaves_a_checkpoint(tmp_path: Path) -> None:
     words = [str(PROGRAM), "-in", "deck.in", *(w for n, value in options.items() for w in ("-var", n, str(value)))]
     process = subprocess.Popen(words, cwd=tmp_path, env=ENVIRONMENT, stdout=subprocess.DEVNULL)
     log = tmp_path / "log.lammps"
-    while process.poll() is None and not (
-        log.exists() and " upto" in log.read_text(encoding="utf-8")
-    ):  # the first part
+    begun = " upto"  # the first part of a stage
+    while process.poll() is None and not (log.exists() and begun in log.read_text(encoding="utf-8")):
         time.sleep(0.01)
     process.send_signal(signal.SIGUSR1)
     assert process.wait(60) == 0
