@@ -11,7 +11,7 @@ from shearbox_tools.checks import check
 from shearbox_tools.errors import InputError
 from shearbox_tools.models import INPUT, find_model, read_model
 from shearbox_tools.phases import disk_need, packing, shearing
-from shearbox_tools.readers import BED
+from shearbox_tools.readers import BED, read_row
 from shearbox_tools.request import Request
 
 HEADER = "# step displacement_mm tau_kPa\n"
@@ -44,6 +44,23 @@ def test_done_is_a_whole_table_and_an_engine_that_said_goodbye(tmp_path, table, 
     if restart:
         synthetic.write_restart(phase.folder / "packed.restart", 7)
     assert phase.done is done
+
+
+def test_a_table_is_read_again_only_when_it_has_changed(tmp_path, monkeypatch):
+    read: list[Path] = []
+    monkeypatch.setattr("shearbox_tools.phases.read_row", lambda path: read.append(path) or read_row(path))
+    phase = packing(tmp_path, request())
+    phase.folder.mkdir()
+    table = phase.folder / "packed.csv"
+    table.write_text(TABLE, encoding="utf-8")
+    phase.log.write_text(GOODBYE, encoding="utf-8")
+    synthetic.write_restart(phase.folder / "packed.restart", 7)
+    phase.seal()
+    assert phase.done and phase.done and len(read) == 1
+    table.write_text(TABLE + TABLE, encoding="utf-8")
+    assert not phase.done and len(read) == 1
+    phase.seal()
+    assert phase.done and len(read) == 2
 
 
 def test_variables_of_the_decks(tmp_path):

@@ -300,6 +300,7 @@ def test_a_dump_without_a_whole_frame_is_named(frames):
         ("kinetic_J", "-1e-9"),
         ("step", "-5"),
         ("tau_kPa", "1_0"),
+        ("tau_kPa", "٣"),
     ],
 )
 def test_a_number_that_a_column_cannot_have(shear, column, value):

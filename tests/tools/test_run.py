@@ -267,8 +267,7 @@ def test_two_runs_in_one_folder(folder):
         ([], 2),
         (["--accuracy", "reference"], 2),
         (["--accuracy", "fast"], SPEEDS["fast"]),
-        (["--accuracy", "fast", "--speed", "7"], 7),
-        (["--speed", "7", "--accuracy", "fast"], 7),
+        (["--speed", "7"], 7),
     ],
 )
 def test_accuracy_sets_the_speed_that_is_not_given(tmp_path, monkeypatch, options, speed):
@@ -313,6 +312,7 @@ REFUSED = [
     (["--travel", "0.008"], "0.008 m would be 8"),
     (["--seed", "0"], "--seed 0: 1 to 2147483647, whole is expected"),
     (["--seed", "1.5"], "invalid int value: '1.5'"),
+    (["--accuracy", "fast", "--speed", "7"], "argument --speed: not allowed with argument --accuracy"),
     (["--accuracy", "high"], "invalid choice: 'high' (choose from 'reference', 'standard', 'fast')"),
     (["--law", "mixed"], "invalid choice: 'mixed'"),
     (["--dt", "soon"], "--dt soon: auto or 1e-10 to 1e-4 is expected: time step (s)"),

@@ -162,10 +162,11 @@ def _add_options_of_a_run(run: argparse.ArgumentParser) -> None:
     _complete(model)
     run.add_argument("--stress", metavar="KPA", type=_stress, nargs="+", action="extend",
                      help="normal stresses, kPa (default: 100 200 300 400)")  # fmt: skip
-    run.add_argument("--accuracy", choices=list(SPEEDS),
-                     help="chooses --speed: " + ", ".join(f"{name} {v:g} mm/s" for name, v in SPEEDS.items())
-                     + f" (default: {REFERENCE})")  # fmt: skip
-    run.add_argument("--speed", metavar="V", type=float, help="shear speed, mm/s (default: that of --accuracy)")
+    pace = run.add_mutually_exclusive_group()
+    pace.add_argument("--accuracy", choices=list(SPEEDS),
+                      help="chooses --speed: " + ", ".join(f"{name} {v:g} mm/s" for name, v in SPEEDS.items())
+                      + f" (default: {REFERENCE})")  # fmt: skip
+    pace.add_argument("--speed", metavar="V", type=float, help="shear speed, mm/s (default: that of --accuracy)")
     run.add_argument("--travel", metavar="S", type=float, help="shear displacement at the end, mm (default: 8)")
     run.add_argument("--seed", metavar="N", type=int, help="seed of the packing (default: 1)")
     run.add_argument("--seeds", metavar="N", type=_seeds, nargs="+", action="extend",

@@ -48,6 +48,15 @@ def log_file(folder: Path, deck: str) -> Path:
     return folder / f"{deck}.log"
 
 
+def state_of(path: Path) -> tuple[int, ...]:
+    """Numbers that change when the file is written to, or another takes its place: what was read of it holds until then."""
+    try:
+        status = path.stat()
+    except OSError as error:
+        raise ShearboxError(f"{path}: {error.strerror}") from error
+    return status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns
+
+
 def sync(path: Path) -> None:
     """Wait until what was written to the file is on the disk, so that a power cut does not lose it."""
     with path.open("rb") as stream:

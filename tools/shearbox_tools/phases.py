@@ -5,11 +5,12 @@ import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from .errors import InputError, ShearboxError
 from .files import CONSOLIDATED_RESTART, CONSOLIDATED_TABLE, DUMPS, PACKED, PACKED_RESTART, PACKED_TABLE
-from .files import SHEAR_RESTART, SHEAR_TABLE, SHEARED_RESTART, log_file, stress_folder
+from .files import SHEAR_RESTART, SHEAR_TABLE, SHEARED_RESTART, log_file, state_of, stress_folder
 from .hosts import HOSTS
 from .models import INPUT, PARAMETERS, read_variables
 from .numerals import number
@@ -80,7 +81,7 @@ class Phase:
         """Whether the table is complete; checkpoints are removed after all else."""
         path = self.folder / self.product
         try:
-            complete = len(read_shear(path)["step"]) == rows_of_shear() if self.name == SHEAR else bool(read_row(path))
+            complete = look_at(path) is not Seal.ALTERED and _is_complete(path, *state_of(path))
         except ShearboxError:
             return False
         return complete and not any((self.folder / name).exists() for name in self.checkpoints)
@@ -152,6 +153,12 @@ def left_to_do(folder: Path, request: Request) -> tuple[list[Phase], list[list[P
     pack = packing(folder, request)
     needed = any(phase.name == CONSOLIDATE for left in chains for phase in left)
     return [] if pack.done and (pack.leads_on or not needed) else [pack], [left for left in chains if left]
+
+
+@cache
+def _is_complete(path: Path, *_: int) -> bool:
+    """Whether a table in that state (state_of) has all its rows: those of a campaign are asked for many times."""
+    return len(read_shear(path)["step"]) == rows_of_shear() if path.name == SHEAR_TABLE else bool(read_row(path))
 
 
 def rows_of_shear() -> int:

@@ -9,11 +9,11 @@ import hashlib
 import re
 from collections.abc import Iterable
 from enum import Enum
-from functools import lru_cache
+from functools import cache
 from pathlib import Path
 
 from .errors import ShearboxError
-from .files import SUMS, sync, write_text
+from .files import SUMS, state_of, sync, write_text
 
 _LINE = re.compile(r"^([0-9a-f]{64})  (\S+)$", re.MULTILINE)
 
@@ -79,14 +79,13 @@ def _write(folder: Path, digests: dict[str, str]) -> None:
 
 def _digest_of(path: Path) -> str:
     try:
-        status = path.stat()
-        return _digest(path, status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns)
+        return _digest(path, *state_of(path))
     except OSError as error:
         raise ShearboxError(f"{path}: {error.strerror}") from error
 
 
-@lru_cache(maxsize=1000)
+@cache
 def _digest(path: Path, *_: int) -> str:
-    """Of the file in that state: dumps are large, and asked for several times."""
+    """Of the file in that state (state_of): dumps are large, and asked for several times."""
     with path.open("rb") as stream:
         return hashlib.file_digest(stream, "sha256").hexdigest()
