@@ -121,6 +121,15 @@ def test_grains_that_pull_have_no_inertial_number(tmp_path: Path) -> None:
     assert pressure.min() < 0 and np.all(rows["inertial"][pressure <= 0] == 0)
 
 
+@pytest.mark.parametrize("asked", [{"travel": 10, "flanges": 2}, {"travel": 0}, {"speed": 0}, {"sigma": -100}], ids=str)
+def test_a_test_that_cannot_be_is_refused(folder: Path, asked: dict[str, float]) -> None:
+    """The flanges were built to a quarter of the width, whatever shear is told of them, and end within a disc of it."""
+    options: dict[str, Any] = TEST | {"models": folder} | asked
+    status, output = start(SHEAR, folder, **options)
+    assert status != 0 and (found := re.search(r"travel at most (\d+) um, the length of the flanges", output))
+    assert 250 * WIDTH <= int(found[1]) / 1000 <= 250 * WIDTH + 4
+
+
 @pytest.mark.parametrize("sigma", [98, 200])
 def test_a_specimen_of_another_stress_is_refused(folder: Path, sigma: float) -> None:
     """The lid would sink, or rise, as shear begins."""

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,8 @@ import numpy as np
 import pytest
 from host import Disc, Frame, engine
 from host import run as run_discs
-from same_grains import consolidated, hand_over, run, sheared
+from host import start
+from same_grains import INPUT, consolidated, hand_over, run, sheared
 
 SMALL: dict[str, Any] = {"width": 0.03, "half_height": 0.015, "ngrains": 30}
 # 6000 steps, in which the lower half reaches its speed, the grains begin to slide and neighbour lists are built again
@@ -38,6 +40,15 @@ def test_both_engines_shear_the_same_grains_alike(tmp_path: Path, grains: Frame,
     )
     for name, tolerance in (tolerances | {"step": 0, "trm": 1e-5, "kinetic_J": 1e-5}).items():
         assert np.abs(one[name] - other[name]).max() <= tolerance * np.abs(one[name]).max(), name
+
+
+def test_a_travel_beyond_the_flanges_is_refused(tmp_path: Path, grains: Frame) -> None:
+    """They were built for a quarter of the width, 7.5 mm, and end within a disc of it."""
+    hand_over(grains, "liggghts", tmp_path)
+    _, output = start("include ${decks}/shear.in", tmp_path, decks=INPUT / "liggghts", **SMALL, travel=13)
+    found = re.search(r"ERROR: .* travel at most (\d+) um", output)
+    assert found and 7500 <= int(found[1]) <= 12000
+    assert not (tmp_path / "shear.dat").exists()
 
 
 def test_packing_and_consolidation_end_at_rest(tmp_path: Path) -> None:
