@@ -10,7 +10,7 @@ import synthetic
 from shearbox_tools import cli
 from shearbox_tools.by_hand import read_by_hand
 from shearbox_tools.errors import ShearboxError
-from shearbox_tools.readers import BED
+from shearbox_tools.readers import BED, read_shear
 from shearbox_tools.reporting import report_on
 
 MODEL = "TypeA_10x5_4-8_1-circle_350"
@@ -86,8 +86,8 @@ def test_what_no_log_tells_is_asked_for(tmp_path, capsys):
     assert status == 2 and "tells the speed of the lower half: give --speed, in mm/s" in message
     assert shearbox(capsys, folder, "--model", MODEL, "--speed", "2")[0] == 0
     summary = json.loads((tmp_path / "a" / "summary.json").read_text(encoding="utf-8"))
-    assert summary["ensembles"][0]["stresses"][0]["sigma_kPa"] == 100
-    assert "σ is the mean of its column" in summary["ensembles"][0]["notes"][0]
+    assert summary["stresses"][0]["sigma_kPa"] == 100
+    assert "σ is the mean of its column" in summary["notes"][0]
 
 
 def test_a_model_that_has_moved_is_named(tmp_path, capsys):
@@ -128,5 +128,21 @@ def test_the_folder_one_is_in_has_a_name(tmp_path, capsys, monkeypatch):
     place = write_test(tmp_path / "test 7", 100, packing=None)
     monkeypatch.chdir(place)
     assert cli.main(["report", "."]) == 0
-    (ensemble,) = json.loads((place / "summary.json").read_text(encoding="utf-8"))["ensembles"]
-    assert ensemble["notes"][0].startswith("test 7: run by hand")
+    summary = json.loads((place / "summary.json").read_text(encoding="utf-8"))
+    assert summary["notes"][0].startswith("test 7: run by hand")
+
+
+def test_one_specimen_has_the_report_of_a_run(tmp_path):
+    """With its pictures, also if it was stopped; without them if frames are gone, which is said."""
+    place = write_test(tmp_path / "a", 100)
+    synthetic.write_shear(place / "shear.dat", synthetic.curves(100, 8), slice(0, 300))
+    page = report_on(place).read_text(encoding="utf-8")
+    assert "data:image/webp" not in page and "no grains.dump, discs.dump, contacts.dump and so no picture" in page
+    steps = [0, *(int(step) for step in read_shear(place / "shear.dat")["step"][99::100])]
+    synthetic.write_frames(place, steps, 3)
+    page = report_on(place).read_text(encoding="utf-8")
+    assert "data:image/webp" in page and "sheared to 3.00 mm only" in page
+    assert json.loads((place / "summary.json").read_text(encoding="utf-8"))["stresses"][0]["grains_lost"] is not None
+    (place / "discs.dump").write_text("ITEM: nothing\n", encoding="utf-8")
+    with pytest.raises(ShearboxError, match="discs.dump"):
+        report_on(place)

@@ -23,8 +23,9 @@ from .numerals import numeral
 from .phases import CONSOLIDATE, SHEAR
 from .polynomial import FEWEST_ROWS
 from .readers import Columns, read_row, read_shear
-from .results import Results
+from .results import Results, lost_grains
 from .shear import Shear, analyse
+from .specimen import missing_frames
 
 UNKNOWN = "unknown"
 ANY_DECK = "log.lammps"  # LAMMPS's name for a log; the last deck's is left
@@ -36,7 +37,7 @@ _COMMANDS = {
     "lid": rf"fix +lid +lid +cdem/lid stress {_NUMBER} width {_NUMBER} thickness {_NUMBER}",
     "contact": rf"pair_coeff +1 1 {_NUMBER} {_NUMBER} {_NUMBER} {_NUMBER} {_NUMBER}",
     "law": r"pair_style +cdem law (\w+)",
-    "packed": r"read_restart +(\S*packed\S*)",
+    "packed": r"read_restart +([^\s$]*packed[^\s$]*)",
 }
 
 
@@ -49,6 +50,8 @@ class Test:
     model_file: Path
     shear: Shear
     packing: dict[str, float] | None
+    bed: dict[str, float] | None  # the table of consolidation
+    problems: list[str]
     notes: list[str] = field(default_factory=list)
 
 
@@ -103,9 +106,9 @@ def _results(tests: Sequence[Test], number: int) -> Results:
         model_file=first.model_file,
         stresses=[test.shear.sigma for test in tests],
         packing=first.packing,
-        consolidations={},
+        consolidations={test.shear.sigma: test.bed for test in tests if test.bed},
         shears=[test.shear for test in tests],
-        problems=[],
+        problems=[problem for test in tests for problem in test.problems],
         notes=notes,
     )
 
@@ -131,8 +134,10 @@ def _read(folder: Path, model: str | None, speed: float | None) -> Test:
     rows = full_speed(data)
     if rows.stop - rows.start < FEWEST_ROWS:
         raise ShearboxError(f"{folder}: {rows.stop - rows.start} rows at full speed are too few to fit a curve")
-    shear = analyse(sigma, folder, data, rows, _is_complete(data, travel), identity, bed or {}, None)
-    return Test(folder, identity, described.path, shear, _packing(folder), _sources(folder, said))
+    problems: list[str] = []
+    lost = lost_grains(folder, identity, problems)
+    shear = analyse(sigma, folder, data, rows, _is_complete(data, travel), identity, bed or {}, lost)
+    return Test(folder, identity, described.path, shear, _packing(folder), bed, problems, _sources(folder, said))
 
 
 def _model(folder: Path, said: dict[str, tuple[str, ...]], model: str | None) -> Model:
@@ -172,13 +177,14 @@ def _row(path: Path) -> dict[str, float] | None:
 
 
 def _sources(folder: Path, said: dict[str, tuple[str, ...]]) -> list[str]:
-    """Where the numbers come from."""
-    if not said:
-        return [f"{_no_log(folder)} tells of the test: σ is the mean of its column, travel that of the last row"]
-    return [
-        f"run by hand: model, σ, speed, travel and contacts are those of {_log(folder, SHEAR).name}; density is that of "
-        f"{PARAMETERS.name}, and lost grains are not counted"
-    ]
+    """Where the numbers come from, and why there is no picture."""
+    if said:
+        log = _log(folder, SHEAR).name
+        told = f"run by hand: model, σ, speed, travel and contacts are those of {log}; density is that of {PARAMETERS.name}"
+    else:
+        told = f"{_no_log(folder)} tells of the test: σ is the mean of its column, travel that of the last row"
+    missing = missing_frames(folder)
+    return [told] + [f"no {', '.join(missing)} and so no picture"] * bool(missing)
 
 
 def _log(folder: Path, deck: str) -> Path:

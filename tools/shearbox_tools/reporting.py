@@ -1,20 +1,21 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The command `shearbox report`: on one run, or on all that a folder holds."""
 
+from dataclasses import replace
 from pathlib import Path
 
 from .by_hand import read_by_hand
 from .ensemble_report import report_on_runs
 from .errors import InputError, ShearboxError
 from .files import RECORD, SHEAR_TABLE
-from .report import report
+from .report import report, write_report
 from .specimens import find_runs
 
 
 def report_on(folder: Path, model: str | None = None, speed: float | None = None, each: bool = True) -> Path:
     """Write the report of a folder, whose path is returned; model and speed (mm/s) are for tests run by hand.
 
-    Of several runs, each has its own report, too, or not.
+    Of several runs, each has its own report, too, or not. One specimen of tests run by hand has that of a run.
     """
     if (folder / RECORD).exists():
         _refuse_options(folder, model, speed)
@@ -22,7 +23,10 @@ def report_on(folder: Path, model: str | None = None, speed: float | None = None
     runs, by_hand = runs_and_tests(folder)
     if not by_hand:
         _refuse_options(folder, model, speed)
-    return report_on_runs(folder, runs, *read_by_hand(by_hand, model, speed), each=each)
+    tests, damaged = read_by_hand(by_hand, model, speed)
+    if len(tests) == 1 and not runs and not damaged:
+        return write_report(replace(tests[0], folder=folder))
+    return report_on_runs(folder, runs, tests, damaged, each=each)
 
 
 def runs_and_tests(folder: Path) -> tuple[list[Path], list[Path]]:

@@ -148,12 +148,15 @@ def _read_shear(
     elif missing:
         without = f"no {', '.join(missing)} and so no picture; without its {SHEAR_TABLE} it would be run again"
         remarks.append((sigma, without))
-    lost = None if GRAINS_DUMP in missing else _lost(place, identity, problems)
+    lost = lost_grains(place, identity, problems)
     complete = len(data["step"]) == rows_of_shear()
     return analyse(sigma, place, data, rows, complete, identity, bed, lost)
 
 
-def _lost(place: Path, identity: dict[str, Any], problems: list[str]) -> int | None:
+def lost_grains(place: Path, identity: dict[str, Any], problems: list[str]) -> int | None:
+    """Outside the box in the last frame; None if there are no frames, or if these are damaged, which becomes a problem."""
+    if not (place / GRAINS_DUMP).exists():
+        return None
     try:
         return count_lost(place, identity["model ngrains"], identity["model width"], identity["model half_height"])
     except ShearboxError as error:

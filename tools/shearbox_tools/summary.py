@@ -31,7 +31,7 @@ def summarise(results: Results) -> dict[str, Any]:
         "model": identity["model"],
         "seed": identity["seed"],
         "law": identity["law"],
-        "stiffness": identity["stiffness"],
+        "stiffness": identity.get("stiffness"),
         "speed_mm_s": identity["speed_mm_s"],
         "travel_mm": identity["travel_mm"],
         "grains": identity["model ngrains"],
