@@ -3,6 +3,7 @@
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import time
@@ -54,6 +55,25 @@ def test_the_test_is_that_of_the_decks(done: Path, sigma: int) -> None:
     assert len(curve["step"]) == 800 and curve["displacement_mm"][-1] == pytest.approx(8, abs=0.02)
     assert curve["sigma_kPa"].mean() == pytest.approx(sigma, rel=0.01)
     assert 0.2 * sigma < curve["tau_kPa"][100:].mean() < sigma
+
+
+def test_run_by_hand_it_has_the_same_report(done: Path, tmp_path: Path) -> None:
+    """Without the record, and with the names that LIGGGHTS gives its logs, which are those of the last deck."""
+    run = json.loads((done / "summary.json").read_text())
+    place = tmp_path / "by_hand"
+    place.mkdir()
+    for name, path in {
+        "packed.csv": "packed/packed.csv",
+        "shear.dat": "100/shear.dat",
+        "log.liggghts": "100/shear.log",
+    }.items():
+        shutil.copy(done / path, place / name)
+    told = subprocess.run([str(SHEARBOX), "report", str(place)], capture_output=True, text=True, timeout=60)
+    assert told.returncode == 0, told.stderr
+    summary = json.loads((place / "summary.json").read_text())
+    for name in ("model", "law", "speed_mm_s", "travel_mm", "packing"):
+        assert summary[name] == run[name], name
+    assert summary["stresses"][0]["tau_peak_kPa"] == run["stresses"][0]["tau_peak_kPa"]
 
 
 def test_what_is_done_is_not_done_again(done: Path) -> None:

@@ -41,7 +41,7 @@ def write_test(folder: Path, sigma: float, log: str | None = "shear.log", packin
     return folder
 
 
-@pytest.mark.parametrize("log", ["shear.log", "log.lammps"])
+@pytest.mark.parametrize("log", ["shear.log", "log.lammps", "log.liggghts"])
 def test_a_command_counts_once_all_its_values_are_there(tmp_path, log):
     (run,), left_out = read_by_hand([write_test(tmp_path / "a", 150, log)], None, None)
     assert not left_out and run.complete
@@ -80,7 +80,7 @@ def shearbox(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str]
 def test_what_no_log_tells_is_asked_for(tmp_path, capsys):
     folder = str(write_test(tmp_path / "a", 100, log=None))
     assert shearbox(capsys, folder) == (
-        2, f"shearbox: {folder}: no log in it (shear.log or log.lammps) tells the model: give --model, a name or a file\n",
+        2, f"shearbox: {folder}: no log in it (shear.log, log.lammps or log.liggghts) tells the model: give --model, a name or a file\n",
     )  # fmt: skip
     status, message = shearbox(capsys, folder, "--model", MODEL)
     assert status == 2 and "tells the speed of the lower half: give --speed, in mm/s" in message

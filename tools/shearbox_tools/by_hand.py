@@ -28,7 +28,7 @@ from .shear import Shear, analyse
 from .specimen import missing_frames
 
 UNKNOWN = "unknown"
-ANY_DECK = "log.lammps"  # LAMMPS's name for a log; the last deck's is left
+ANY_DECK = "log.lammps", "log.liggghts"  # where none is named, the log of the last deck
 SPEED = "speed_mm_s"
 _NUMBER = r"([-+.\de]+)"
 _COMMANDS = {
@@ -36,7 +36,7 @@ _COMMANDS = {
     "lower": rf"fix +lower lower cdem/move speed {_NUMBER} ramp {_NUMBER} stop {_NUMBER}",
     "lid": rf"fix +lid +lid +cdem/lid stress {_NUMBER} width {_NUMBER} thickness {_NUMBER}",
     "contact": rf"pair_coeff +1 1 {_NUMBER} {_NUMBER} {_NUMBER} {_NUMBER} {_NUMBER}",
-    "law": r"pair_style +cdem law (\w+)",
+    "law": r"pair_style +(?:cdem law|gran model) (direct|incremental)(?:_accumulation)?",
     "packed": r"read_restart +([^\s$]*packed[^\s$]*)",
 }
 
@@ -180,7 +180,8 @@ def _sources(folder: Path, said: dict[str, tuple[str, ...]]) -> list[str]:
     """Where the numbers come from, and why there is no picture."""
     if said:
         log = _log(folder, SHEAR).name
-        told = f"run by hand: model, σ, speed, travel and contacts are those of {log}; density is that of {PARAMETERS.name}"
+        contacts = ", travel and contacts" if "contact" in said else " and travel"
+        told = f"run by hand: model, σ, speed{contacts} are those of {log}; density is that of {PARAMETERS.name}"
     else:
         told = f"{_no_log(folder)} tells of the test: σ is the mean of its column, travel that of the last row"
     missing = missing_frames(folder)
@@ -189,11 +190,11 @@ def _sources(folder: Path, said: dict[str, tuple[str, ...]]) -> list[str]:
 
 def _log(folder: Path, deck: str) -> Path:
     own = log_file(folder, deck)
-    return own if own.exists() else folder / ANY_DECK
+    return next((log for log in (own, *(folder / name for name in ANY_DECK)) if log.exists()), own)
 
 
 def _no_log(folder: Path) -> str:
-    return f"no log in it ({SHEAR}.log or {ANY_DECK})"
+    return f"no log in it ({SHEAR}.log, {' or '.join(ANY_DECK)})"
 
 
 def _commands(folder: Path, deck: str) -> dict[str, tuple[str, ...]]:
