@@ -175,6 +175,25 @@ def test_stress_is_that_of_the_forces_on_the_walls(tmp_path: Path, case: dict[st
     assert abs(seen["stress_xy"] - seen["stress_yx"]) > 1e-6 * seen["stress_xx"]  # the spins change
 
 
+@pytest.mark.parametrize("tilt", [0, 0.01, -0.015])
+def test_images_are_where_the_box_has_them(tmp_path: Path, tilt: float) -> None:
+    """Of one grain in a periodic box, 4 cm wide and high, that may be tilted: a rectangle around an image has the grain,
+    one around any other place has nothing."""
+    grain, side = Disc(0.013, 0.017), 0.04
+    images = [(grain.x + i * side + j * tilt, grain.y + j * side) for i, j in [(1, 0), (-1, 1), (2, -1), (7, -5)]]
+    places = [*images, (grain.x + tilt + side / 2, grain.y + side)]
+    there = np.array([1, 1, 1, 1, 0])
+    deck = START.replace("fix move", f"change_box all triclinic\nchange_box all xy final {tilt} units box\nfix move")
+    for k, (x, y) in enumerate(places):
+        within = f"{x - 0.003} {x + 0.003} {y - 0.003} {y + 0.003}"
+        deck += f"compute c{k} all cdem/average within {within} grains solid\n"
+    deck += "thermo_style custom step " + " ".join(f"c_c{k}[*]" for k in range(len(places))) + "\nrun 0\n"
+    thermo = run(deck, tmp_path, discs=[grain], bx="p", by="p").thermo
+    grains, solid = ([thermo[f"c_c{k}[{field}]"][-1] for k in range(len(places))] for field in (1, 2))
+    assert grains == pytest.approx(there, abs=1e-7)
+    assert solid == pytest.approx(there * math.pi * grain.radius**2 / 0.006**2, abs=1e-7)
+
+
 @pytest.mark.parametrize("case", CASES, ids=lambda case: "-".join(map(str, case.values())))
 def test_stress_is_that_of_compute_pressure(tmp_path: Path, case: dict[str, Any]) -> None:
     """In a periodic box without walls, contacts and motion. Compute pressure has the symmetric part of the latter about

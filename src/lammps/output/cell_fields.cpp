@@ -81,9 +81,10 @@ bool CellFields::counts(int i) const {
 
 std::vector<std::vector<double>> CellFields::rows(int nx, int ny) const {
   const std::vector<Contact> contacts = pair->report.contacts();
-  cdem::FieldSums sums(limits.rectangle(), nx, ny, largest(contacts));
-  add_grains(sums, contacts);
-  add_branches(sums, contacts);
+  const cdem::Rectangle in = limits.rectangle();
+  cdem::FieldSums sums(in, nx, ny, largest(contacts));
+  add_grains(sums, in, contacts);
+  add_branches(sums, in, contacts);
 
   const std::vector<std::int64_t> mine = sums.words();
   std::vector<std::int64_t> all(mine.size());
@@ -118,15 +119,21 @@ cdem::FieldSums::Largest CellFields::largest(const std::vector<Contact> &contact
   return {all[0], all[1], all[2], all[3], all[4]};
 }
 
-// Calls visit(displacement) for the periodic images of the scene that may reach into the rectangle.
-template <class Visit> void CellFields::for_each_image(Visit visit) const {
-  const int nx = domain->xperiodic, ny = domain->yperiodic;
-  for (int i = -nx; i <= nx; i++)
-    for (int j = -ny; j <= ny; j++)
-      visit(cdem::Point{i * domain->xprd, j * domain->yprd});
+// Calls visit(displacement) for the periodic images of what is inside `part` that may reach into the rectangle `in`,
+// which may be anywhere. The box may be tilted.
+template <class Visit>
+void CellFields::for_each_image(const cdem::Rectangle &in, const cdem::Rectangle &part, Visit visit) const {
+  const double px = domain->xperiodic ? domain->xprd : 0, py = domain->yperiodic ? domain->yprd : 0;
+  const auto first = [](double least, double period) { return period > 0 ? std::ceil(least / period) : 0; };
+  const auto last = [](double most, double period) { return period > 0 ? std::floor(most / period) : 0; };
+  for (double j = first(in.ylo - part.yhi, py); j <= last(in.yhi - part.ylo, py); j++) {
+    const double tilt = j * domain->xy;
+    for (double i = first(in.xlo - part.xhi - tilt, px); i <= last(in.xhi - part.xlo - tilt, px); i++)
+      visit(cdem::Point{i * px + tilt, j * py});
+  }
 }
 
-void CellFields::add_grains(cdem::FieldSums &sums, const std::vector<Contact> &all) const {
+void CellFields::add_grains(cdem::FieldSums &sums, const cdem::Rectangle &in, const std::vector<Contact> &all) const {
   std::vector<int> contacts(atom->nlocal, 0);
   for (const Contact &c : all)
     for (int i : {c.grain_a, c.grain_b})
@@ -143,8 +150,9 @@ void CellFields::add_grains(cdem::FieldSums &sums, const std::vector<Contact> &a
       continue;
     const cdem::GrainShape &shape = *shapes[atom->type[i]];
     const double r = atom->radius[i];
-    for_each_image([&](cdem::Point by) {
-      const cdem::Point at = moved({atom->x[i][0], atom->x[i][1]}, by);
+    const cdem::Point centre{atom->x[i][0], atom->x[i][1]};
+    for_each_image(in, {centre.x - r, centre.x + r, centre.y - r, centre.y + r}, [&](cdem::Point by) {
+      const cdem::Point at = moved(centre, by);
       place(shape, at, r, grains->angle(i), outline);
       sums.add(
           {at, {atom->v[i][0], atom->v[i][1]}, r, shape.area() * r * r, atom->rmass[i], atom->omega[i][2], contacts[i]},
@@ -154,13 +162,17 @@ void CellFields::add_grains(cdem::FieldSums &sums, const std::vector<Contact> &a
 }
 
 // Each rank takes the ends of contacts at its own grains.
-void CellFields::add_branches(cdem::FieldSums &sums, const std::vector<Contact> &contacts) const {
+void CellFields::add_branches(cdem::FieldSums &sums, const cdem::Rectangle &in,
+                              const std::vector<Contact> &contacts) const {
   const auto add = [&](const Contact &c, int i, double sign) {
     if (!counts(i))
       return;
     const cdem::Point force{sign * (c.fn * c.nx - c.ft * c.ny), sign * (c.fn * c.ny + c.ft * c.nx)};
-    for_each_image([&](cdem::Point by) {
-      sums.add({moved({atom->x[i][0], atom->x[i][1]}, by), moved({c.x, c.y}, by), force, {c.nx, c.ny}, c.fn, c.ft});
+    const cdem::Point from{atom->x[i][0], atom->x[i][1]}, to{c.x, c.y};
+    const auto [xlo, xhi] = std::minmax(from.x, to.x);
+    const auto [ylo, yhi] = std::minmax(from.y, to.y);
+    for_each_image(in, {xlo, xhi, ylo, yhi}, [&](cdem::Point by) {
+      sums.add({moved(from, by), moved(to, by), force, {c.nx, c.ny}, c.fn, c.ft});
     });
   };
   for (const Contact &c : contacts) {

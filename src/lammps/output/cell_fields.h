@@ -37,9 +37,9 @@ private:
   using Contact = ContactReport::Contact;
   bool counts(int i) const;
   cdem::FieldSums::Largest largest(const std::vector<Contact> &) const;
-  template <class Visit> void for_each_image(Visit) const;
-  void add_grains(cdem::FieldSums &, const std::vector<Contact> &) const;
-  void add_branches(cdem::FieldSums &, const std::vector<Contact> &) const;
+  template <class Visit> void for_each_image(const cdem::Rectangle &in, const cdem::Rectangle &part, Visit) const;
+  void add_grains(cdem::FieldSums &, const cdem::Rectangle &in, const std::vector<Contact> &) const;
+  void add_branches(cdem::FieldSums &, const cdem::Rectangle &in, const std::vector<Contact> &) const;
 
   const std::string who;
   const int group_bit;
