@@ -242,6 +242,25 @@ def test_forces_on_parts_are_those_of_the_fixes(tmp_path: Path, ranks: int, styl
     assert thermo["c_part[7]"] == pytest.approx(thermo["c_part[3]"] + thermo["c_part[5]"], abs=1e-12)
 
 
+def test_a_part_that_is_another_group_by_now(tmp_path: Path) -> None:
+    """A group that was deleted between two runs and made anew: compute cdem/force has the force on its present atoms."""
+    deck = """
+    include ${decks}/start.in
+    fix move grains cdem/integrate
+    group part id 2
+    compute part all cdem/force part
+    thermo_style custom step c_part[*]
+    run 0
+    group part delete
+    group other id 2
+    group part id 4
+    run 0
+    """
+    discs = [Disc(0, D - 1e-6), Disc(0, 0, type=2), Disc(0.01, D - 3e-6), Disc(0.01, 0, type=2)]
+    thermo = run(deck, tmp_path, discs=discs).thermo
+    assert thermo["c_part[2]"][-1] == pytest.approx(-1e8 * 3e-6, rel=1e-9)
+
+
 SIDES = """
 include ${decks}/start.in
 group    lid type 3

@@ -17,17 +17,24 @@ constexpr int AXES = 2;
 ComputeCDEMForce::ComputeCDEMForce(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg) {
   if (narg == 3)
     error->all(FLERR, "Compute cdem/force {}: names of groups are missing", id);
-  for (int k = 3; k < narg; k++) {
-    const int part = group->find(arg[k]);
-    if (part < 0)
-      error->all(FLERR, "Compute cdem/force {}: there is no group {}", id, arg[k]);
-    parts.push_back(group->bitmask[part]);
-  }
+  names.assign(arg + 3, arg + narg);
+  find_parts();
   forces.resize(AXES * parts.size());
   vector = forces.data();
   vector_flag = 1;
   size_vector = static_cast<int>(forces.size());
   extvector = 1;
+}
+
+// Groups may be deleted and made anew, and then have other bits.
+void ComputeCDEMForce::find_parts() {
+  parts.clear();
+  for (const std::string &name : names) {
+    const int part = group->find(name);
+    if (part < 0)
+      error->all(FLERR, "Compute cdem/force {}: there is no group {}", id, name);
+    parts.push_back(group->bitmask[part]);
+  }
 }
 
 void ComputeCDEMForce::compute_vector() {

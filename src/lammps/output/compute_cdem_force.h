@@ -11,6 +11,7 @@
 
 #include "compute.h"
 
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -19,10 +20,13 @@ class ComputeCDEMForce : public Compute {
 public:
   ComputeCDEMForce(LAMMPS *, int, char **);
 
-  void init() override {}
+  void init() override { find_parts(); }
   void compute_vector() override;
 
 private:
+  void find_parts();
+
+  std::vector<std::string> names;
   std::vector<int> parts; // bits of the groups
   std::vector<double> forces;
 };
