@@ -83,6 +83,17 @@ def test_collision_across_a_periodic_border(tmp_path: Path, law: str, ranks: int
     assert motion(across.end) == pytest.approx(motion(inside.end), rel=1e-8)
 
 
+@pytest.mark.parametrize("added", ["", ADDED])
+def test_both_images_of_a_pair_are_near(tmp_path: Path, law: str, added: str) -> None:
+    """Two discs in a box of two diameters bounce to and fro between each other's images, closer than any skin. One image
+    does not take over what the contact with the other remembers: whenever the list is made, the same forces."""
+    discs = [Disc(0, 0, vx=1, omega=100), Disc(3.98e-3, 1e-4, vx=-1)]
+    options: dict[str, Any] = {"law": law, "added": added, "steps": 300, "box": (-4e-3, 4e-3, -4e-3, 4e-3), "bx": "p", "by": "p"}  # fmt: skip
+    seldom, often = (run(COLLIDE, tmp_path / str(skin), discs=discs, skin=skin, **options) for skin in (1e-3, 1e-4))
+    assert seldom.end["tqz"][0] != 0
+    assert motion(often.end) == pytest.approx(motion(seldom.end), rel=1e-9)
+
+
 def test_collision_across_ranks(tmp_path: Path, law: str, ranks: int) -> None:
     """The same between ranks, whose border passes through the contact: here to the bit."""
     options: dict[str, Any] = {"law": law, "steps": 100, "skin": 2e-6}

@@ -9,6 +9,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "neigh_list.h"
 #include "neighbor.h"
@@ -391,7 +392,17 @@ double DiscPairList::mass(int k) const {
   return !grains->is_free(j) ? mi : !grains->is_free(i) ? mj : mi * mj / (mi + mj);
 }
 
+// Of a pair whose periodic images are both in the list, in a box that is hardly longer than two grains, only the
+// nearest can touch. Grains know a contact by ids alone, and what it remembers must not go to the other image.
+bool DiscPairList::is_nearest_image(int k) const {
+  const auto &a = rows[pairs.a(k)], &b = rows[pairs.b(k)];
+  return !(domain->xperiodic && std::fabs(a.x - b.x) > 0.5 * domain->xprd) &&
+         !(domain->yperiodic && std::fabs(a.y - b.y) > 0.5 * domain->yprd);
+}
+
 void DiscPairList::recall_history(int k) {
+  if (!is_nearest_image(k))
+    return;
   const int i = rows.grain(pairs.a(k)), j = rows.grain(pairs.b(k)), p = rows.disc(pairs.a(k)),
             q = rows.disc(pairs.b(k));
   const bool i_is_own = i < atom->nlocal;

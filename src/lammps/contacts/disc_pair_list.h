@@ -102,6 +102,7 @@ private:
   void set_constants();
   void set_law_constants(int k);
   cdem::TwoGrains::Grain grain_of(int row) const;
+  bool is_nearest_image(int k) const;
   void recall_history(int k);
   void remember_numbers();
   using Dashpots = std::array<double, 2 + cdem::MOST_NUMBERS>;
