@@ -750,6 +750,29 @@ def test_a_wall_of_several_discs(tmp_path: Path, law: str) -> None:
     assert [a["x"][2], a["y"][2], a["vx"][2], a["vy"][2], a["omegaz"][2]] == [0, 0, 0, 0, 0]
 
 
+@pytest.mark.parametrize("side", ["top", "bottom", "left", "right"])
+def test_the_face_of_a_lid_of_clumps(tmp_path: Path, side: str) -> None:
+    """It is where the innermost point of its discs is, not that of the circles around the clumps, which are turned."""
+    deck = f"""
+    include ${{decks}}/start.in
+    fix shape all cdem/shape type 1 single type 2 triple density 26.5 orient 7
+    fix move grains cdem/integrate
+    fix lid walls cdem/lid stress 1e4 width 0.01 thickness 0.01 vmax 1 from {side}
+    compute discs walls cdem/discs x y radius
+    dump discs walls cdem/local 1 discs.dump c_discs[*]
+    dump_modify discs format float %.17g
+    thermo_style custom step f_lid[3]
+    thermo_modify format float %.17g
+    run 0
+    """
+    walls = [Disc(0, 0, 6e-3, type=2), Disc(6e-3, 1e-4, 6e-3, type=2)]
+    out = run(deck, tmp_path, discs=[*walls, Disc(0, -0.01)])
+    discs = out.dump("discs.dump")[-1]
+    outward = {"top": discs["y"], "bottom": -discs["y"], "right": discs["x"], "left": -discs["x"]}[side]
+    sign = 1 if side in ("top", "right") else -1
+    assert out.thermo["f_lid[3]"][-1] == pytest.approx(sign * np.min(outward - discs["radius"]), abs=1e-12)
+
+
 # --- the time step ----------------------------------------------------------------------------------
 
 

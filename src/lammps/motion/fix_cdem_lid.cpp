@@ -2,6 +2,7 @@
 #include "motion/fix_cdem_lid.h"
 
 #include "contacts/pair_cdem.h"
+#include "core/rotation.h"
 #include "grains/fix_cdem_shape.h"
 
 #include "host/packed_state.h"
@@ -202,10 +203,18 @@ double FixCDEMLid::inner_face() const {
 // From the centre of an atom inward (m). A piece of a straight wall is as thick as long, see fix cdem/shape.
 double FixCDEMLid::reach(int i) const {
   const cdem::GrainShape &shape = FixCDEMShape::shape(lmp, atom->type[i]);
-  if (!shape.is_line())
-    return atom->radius[i];
-  const cdem::WallLine line = shape.axis(atom->radius[i]);
-  return 0.5 * atom->radius[i] + line.half * std::fabs(axis == X ? line.ux : line.uy);
+  const double radius = atom->radius[i];
+  if (shape.is_line()) {
+    const cdem::WallLine line = shape.axis(radius);
+    return 0.5 * radius + line.half * std::fabs(axis == X ? line.ux : line.uy);
+  }
+  if (shape.discs().size() == 1)
+    return radius;
+  const auto [cosine, sine] = cdem::rotation(angle(i));
+  double most = -INFINITY;
+  for (const auto &[x, y, r] : shape.discs())
+    most = std::max(most, r - sign * (axis == X ? cosine * x - sine * y : sine * x + cosine * y));
+  return radius * most;
 }
 
 double FixCDEMLid::compute_vector(int n) {

@@ -74,6 +74,8 @@ bigint WallBody::count_also_in(int other_groupbit) const {
 
 bool WallBody::in_group(int i) const { return atom->mask[i] & groupbit; }
 
+double WallBody::angle(int i) const { return grains ? grains->angle(i) : 0; }
+
 void WallBody::setup_pre_neighbor() { pre_neighbor(); }
 
 void WallBody::pre_neighbor() {

@@ -43,6 +43,7 @@ protected:
   enum Axis { X, Y };
 
   bool in_group(int i) const;
+  double angle(int i) const; // of a disc, or of a clump as part of a wall (rad)
 
   // The words of the fix after its style.
   Shearbox::DeckWords words_of(int narg, char **arg) const;
