@@ -111,6 +111,8 @@ void PairCDEM::check_setting() const {
     error->all(FLERR,
                "Pair style cdem: rerun: a dump has neither the springs of contacts nor the angles of grains, and "
                "forces would be wrong: 'run 0' from restart files, or dump in the run what is needed");
+  if (Shearbox::command_in_work(lmp) == "pair_write")
+    error->all(FLERR, "Pair style cdem: pair_write: forces are not a function of the distance: contacts have a past");
   if (!(neighbor->skin > 0))
     error->all(FLERR,
                "Pair style cdem: the skin of the neighbour list is {}, must be positive: a contact still acts "

@@ -23,8 +23,8 @@
 // Needs dimension 2, atom_style sphere (radii cannot change in a run), atom ids, newton off, comm_modify vel yes, a
 // skin above 0, fix cdem/integrate, and units in which force is mass times acceleration: si, cgs, lj, micro or nano.
 // Radii and masses must be positive, z must be 0. A periodic box must be two diameters of the largest grain or more.
-// minimize and rerun are refused, and so are discs with the same centre. Every pair of types needs a pair_coeff, with I
-// <= J.
+// minimize, rerun and pair_write are refused, and so are discs with the same centre. Every pair of types needs a
+// pair_coeff, with I <= J.
 //
 // eng_vdwl is the energy stored in the contacts: in springs and in additions to the law (J). single(), as in compute
 // pair/local, reads the last step and changes nothing: force (N/m: over the distance of the discs), p1 normal and p2
