@@ -171,6 +171,35 @@ fix_modify pull energy yes
     assert np.all(grain(out, "omegaz") == 0)
 
 
+def test_walls_have_no_energy_of_rotation(tmp_path: Path) -> None:
+    """A disc that spins and a wall that moves: the energies of the group all are those of the two."""
+    moving = GRAIN.replace("move speed 0", "move speed 0.5") + "compute e all cdem/energy\n"
+    out = run(WALL + moving + END.replace("pe ke", "c_e[1] c_e[2] c_e"), tmp_path, law="direct", **UPRIGHT, x=-0.02, y=0,
+              gvx=0, gvy=2, gx=0, gy=0, every=10, steps=10)  # fmt: skip
+    translation = MASS * 2**2 / 2 + 6 * DENSITY * (1 + math.pi / 4) * 4e-3**2 * 0.5**2 / 2
+    rotation = MASS * 2e-3**2 / 2 * UPRIGHT["spin"] ** 2 / 2
+    assert out.thermo["c_e[1]"][-1] == pytest.approx(translation, rel=1e-9)
+    assert out.thermo["c_e[2]"][-1] == pytest.approx(rotation, rel=1e-9)
+    assert out.thermo["c_e"][-1] == pytest.approx(translation + rotation, rel=1e-9)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_walls_that_part(tmp_path: Path, law: str, ranks: int) -> None:
+    """A disc slides over the joint of two walls while one of them moves away along their axis: as soon as there is a gap both
+    ends may bear the disc at once, whenever the neighbour list is made."""
+    apart = WALL.replace("row $(-0.01*v_ux) $(-0.01*v_uy) $(0.01*v_ux) $(0.01*v_uy) 6", "row 0 -0.01 0 -0.002 3")
+    apart += "cdem/create 3 row 0 0.002 0 0.01 3 diameter 0.008 density 26.5\ngroup upper type 3\n"
+    look = "compute c all cdem/contacts fn\ndump c all local ${every} c.dump c_c[*]\nfix upper upper cdem/move speed 0.1 dir y\n"
+    weight, above = 2e5 * MASS, dict(UPRIGHT, vx=0, vy=1)
+    far, close = (
+        run(apart + GRAIN + look + END, tmp_path / str(skin), law=law, ranks=ranks, skin=skin, **above, x=-0.004 + weight / 1e8,
+            y=-2e-5, gvx=0, gvy=1, gx=2e5, gy=0, every=20, steps=800) for skin in (5e-4, 2e-5)
+    )  # fmt: skip
+    assert max(np.count_nonzero(frame["c_c[1]"] > 0.1 * weight) for frame in far.dump("c.dump")) == 2
+    for column in ("x", "y", "vx", "vy", "fx", "fy"):
+        assert np.array_equal(grain(far, column), grain(close, column)), column
+
+
 RAIN = WALL.replace("cdem/create 2 row", "cdem/create 3 row -0.02 -0.02 0.02 -0.02 11 diameter 0.008 density 26.5\n"
                     "cdem/create 2 row").replace("group wall type 2", "group wall type 2 3")  # fmt: skip
 

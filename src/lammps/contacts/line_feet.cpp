@@ -2,9 +2,10 @@
 #include "contacts/line_feet.h"
 
 #include "atom.h"
+#include "neighbor.h"
 
+#include <algorithm>
 #include <cmath>
-#include <tuple>
 
 using namespace LAMMPS_NS;
 
@@ -19,7 +20,7 @@ void LineFeet::take_over(cdem::DiscPairs &pairs) {
         if (!rows.is_line(a) && !rows.is_line(b))
           continue;
         const int piece = rows.is_line(a) ? a : b;
-        feet.push_back({a + b - piece, piece, k, rows.line(piece), NONE, NONE, true});
+        feet.push_back({a + b - piece, piece, k, rows.line(piece), {}, true});
         piece_of_foot.push_back(piece);
       }
     first_of_block.push_back(int(feet.size()));
@@ -38,27 +39,20 @@ void LineFeet::find_neighbours() {
   for (int row = 0; row < rows.rows_of(atom->nlocal + atom->nghost); row++)
     if (rows.is_line(row))
       pieces.push_back(row);
-  for (Foot &foot : feet) {
-    const auto &[x, y, ux, uy, half] =
-        std::tuple(rows[foot.piece].x, rows[foot.piece].y, foot.line.ux, foot.line.uy, foot.line.half);
-    foot.before = piece_at(x - half * ux, y - half * uy, foot.piece);
-    foot.behind = piece_at(x + half * ux, y + half * uy, foot.piece);
-  }
+  for (Foot &foot : feet)
+    for (int row : pieces)
+      if (const double far = neighbor->skin; // no further do two rows move towards each other until the next list
+          meets(row, foot, foot.line.half, far) || meets(row, foot, -foot.line.half, far))
+        foot.beside.push_back(row);
 }
 
-// The piece, besides the given one, that has one of its ends at (x, y).
-int LineFeet::piece_at(double x, double y, int besides) const {
-  constexpr double TOLERANCE = 1e-6; // of half the length of a piece: places are rounded
-  for (int row : pieces) {
-    if (row == besides)
-      continue;
-    const auto [ux, uy, half] = rows.line(row);
-    const double dx = x - rows[row].x, dy = y - rows[row].y;
-    const double along = std::fabs(dx * ux + dy * uy), across = std::fabs(dx * uy - dy * ux);
-    if (std::fabs(along - half) < TOLERANCE * half && across < TOLERANCE * half)
-      return row;
-  }
-  return NONE;
+bool LineFeet::meets(int row, const Foot &foot, double along, double tolerance) const {
+  if (row == foot.piece)
+    return false;
+  const auto [ux, uy, half] = rows.line(row);
+  const double dx = rows[foot.piece].x + along * foot.line.ux - rows[row].x;
+  const double dy = rows[foot.piece].y + along * foot.line.uy - rows[row].y;
+  return std::fabs(std::fabs(dx * ux + dy * uy) - half) < tolerance && std::fabs(dx * uy - dy * ux) < tolerance;
 }
 
 void LineFeet::place_all() {
@@ -103,16 +97,19 @@ double LineFeet::overlap_before(const cdem::DiscPairs &pairs, int k, double dt) 
   return cdem::contact_of(relative, cdem::distance_of(relative), pairs.constants(k), dt).before;
 }
 
-// At an end where another piece begins, the distances decide, which two ranks that have the pair compute alike.
+// At an end where other pieces begin, the distances decide, which two ranks that have the pair compute alike. Walls may
+// part, or meet, as they move.
 bool LineFeet::acts(const Foot &f, double along) const {
   constexpr double CLEAR = 1 - 1e-9; // share of half the length within which rounding can't matter
+  constexpr double TOLERANCE = 1e-6; // of half the length: places are rounded
   if (std::fabs(along) < CLEAR * f.line.half)
-    return true;
-  const int other = along < 0 ? f.before : f.behind;
-  if (other == NONE)
     return true;
   const cdem::Disc<double> &disc = rows[f.disc];
   const double here = cdem::square_distance(disc, rows[f.piece], f.line);
-  const double there = cdem::square_distance(disc, rows[other], rows.line(other));
-  return here != there ? here < there : atom->tag[rows.grain(f.piece)] < atom->tag[rows.grain(other)];
+  return std::none_of(f.beside.begin(), f.beside.end(), [&](int other) {
+    if (!meets(other, f, std::copysign(f.line.half, along), TOLERANCE * f.line.half))
+      return false;
+    const double there = cdem::square_distance(disc, rows[other], rows.line(other));
+    return here != there ? there < here : atom->tag[rows.grain(other)] < atom->tag[rows.grain(f.piece)];
+  });
 }

@@ -34,19 +34,19 @@ public:
   void remember_elsewhere(int block, cdem::DiscPairs &) const;
 
 private:
-  // On the piece of row `piece`, of a disc, for a pair. `before` and `behind`: rows of the pieces that meet it at its
-  // two ends, or NONE.
+  // On the piece of row `piece`, of a disc, for a pair. `beside`: rows of the pieces that may meet it at one of its
+  // ends before the next list.
   struct Foot {
     int disc, piece, pair;
     cdem::WallLine line;
-    int before, behind;
+    std::vector<int> beside;
     bool acts;
   };
-  static constexpr int NONE = -1;
   static constexpr double ELSEWHERE = 0.5 * cdem::TOUCHING; // N; no contact of a smooth wall remembers such a spring
 
   void find_neighbours();
-  int piece_at(double x, double y, int besides) const;
+  // Whether the piece of this row has one of its ends within so far of the end of a foot's piece at `along` (m).
+  bool meets(int row, const Foot &, double along, double tolerance) const;
   bool acts(const Foot &, double along) const;
   double overlap_before(const cdem::DiscPairs &, int k, double dt) const;
 

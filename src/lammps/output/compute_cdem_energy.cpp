@@ -68,10 +68,14 @@ void ComputeCDEMEnergy::compute_vector() {
     keep_books();
 }
 
+// A piece of a smooth wall, whose inertia is infinite, does not turn.
 ComputeCDEMEnergy::Kinetic ComputeCDEMEnergy::kinetic(int i) const {
   const double m = atom->rmass[i], r = atom->radius[i], omega = atom->omega[i][2];
   const double *const v = atom->v[i];
-  return {0.5 * m * (v[0] * v[0] + v[1] * v[1]), 0.5 * (grains->inertia(atom->type[i]) * m * r * r) * omega * omega};
+  const double translation = 0.5 * m * (v[0] * v[0] + v[1] * v[1]);
+  if (pair->contacts.rows.shape_of_type(atom->type[i]).is_line())
+    return {translation, 0};
+  return {translation, 0.5 * (grains->inertia(atom->type[i]) * m * r * r) * omega * omega};
 }
 
 ComputeCDEMEnergy::State ComputeCDEMEnergy::state() const {
