@@ -17,7 +17,7 @@ include ${decks}/start.in
 fix      move grains cdem/integrate dt any gravity ${gx} ${gy} damping ${damping}
 timestep ${dt}
 compute  books grains cdem/energy audit yes
-fix      sums all ave/time 1 1 ${steps} c_books[*] mode scalar file books.dat
+fix      sums all ave/time ${steps} 1 ${steps} c_books[*] mode scalar file books.dat
 thermo   ${steps}
 run      ${steps}
 include  ${decks}/end.in
@@ -60,7 +60,8 @@ def test_a_grain_on_a_spring(tmp_path: Path, law: str, ranks: int, style: str) -
 
 def test_what_it_takes_out_is_booked(tmp_path: Path) -> None:
     """Discs collide without friction or dashpots: the energy they lose has gone into damping, to round-off and what the
-    contacts' own steps leave over; the same grains with the same damping end alike without an audit."""
+    contacts' own steps leave over, with nothing else that asks for every step; the same grains with the same damping end
+    alike without an audit."""
     discs = cloud(4, 0.5)
     options: dict[str, Any] = {"discs": discs, "hn": 0, "hs": 0, "phi": 0, "gx": 0, "gy": 0, "damping": A}
     out = run(DECK, tmp_path, **options, dt=1e-7, steps=20000)

@@ -149,6 +149,9 @@ void FixCDEMIntegrate::init() {
   reset_dt();
 }
 
+// Asked by the run style, whose init() is before ours: `audit` is still that of the last run.
+bool FixCDEMIntegrate::needs_every_step() const { return damping != 0 && FixCDEMAudit::find(lmp); }
+
 void FixCDEMIntegrate::reset_dt() {
   known_dt = update->dt;
   step.check();

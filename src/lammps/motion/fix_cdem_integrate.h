@@ -103,7 +103,7 @@ public:
   void restart(char *) override;
 
   // What damping takes out is booked from the forces, which only a step on the atoms has.
-  bool needs_every_step() const override { return audit && damping != 0; }
+  bool needs_every_step() const override;
   // Books the energy that drag takes out in a step made on the rows, if there is an audit.
   void book_drag(const GrainRows &);
   // Has the neighbour list rebuilt in the next step.
