@@ -127,12 +127,24 @@ private:
       for (std::size_t l = 0; l < members.size(); l++)
         if (l != k && lies_inside(d, members[l]))
           throw std::invalid_argument(name(k) + " is a duplicate of, or lies inside, " + name(l));
+      for (std::size_t l = 0; l < k; l++)
+        if (hardly_differs(d, members[l]))
+          throw std::invalid_argument(name(k) + " is hardly another than " + name(l) +
+                                      ": both would bear all contacts");
     }
     check_connected();
   }
 
   static bool lies_inside(const Member &inner, const Member &outer) {
     return std::hypot(inner.x - outer.x, inner.y - outer.y) + inner.r <= outer.r * (1 + 1e-12);
+  }
+
+  // Discs of two grains that overlap by delta touch within sqrt(2 (r1 + r2) delta) of the point that is closest. Two
+  // discs of a grain that are both within it act as one of twice the stiffness, which the stability limit does not
+  // know.
+  static bool hardly_differs(const Member &a, const Member &b) {
+    constexpr double LEAST = 0.02; // of the radius: overlaps of 1e-4 radii
+    return std::hypot(a.x - b.x, a.y - b.y) + std::fabs(a.r - b.r) < LEAST * std::min(a.r, b.r);
   }
 
   static bool joined(const Member &a, const Member &b) {

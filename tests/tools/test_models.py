@@ -185,6 +185,7 @@ def test_area_of_a_grain(shape, area):
     [
         ("0 0 1\n3 0 1\n", "disc 2 is disconnected from disc 1"),
         ("0 0 1\n0 .2 .5\n", "disc 2 is a duplicate of, or lies inside, disc 1"),
+        ("0 0 1\n.03 0 1\n.01 0 1.005\n", "disc 3 is hardly another than disc 1: both would bear all contacts"),
         ("0 0 1\n1 0 0\n", "line 2: 'x y r' of a disc with r > 0 is expected, not '1 0 0'"),
         ("0 0 1\n# two\n1 0 -.8\n", "line 3: 'x y r' of a disc with r > 0 is expected, not '1 0 -.8'"),
         ("0 0 1\n1 0\n", "line 2: 'x y r' of a disc with r > 0 is expected, not '1 0'"),

@@ -182,7 +182,7 @@ TEST(GrainShape, OneDisc) {
 //   of y^2 = (pi - a)/4 + s c/4 + s^3 c/6,
 // and the union consists of two such parts.
 TEST(GrainShape, TwoDiscsAndTheirLens) {
-  for (double d : {0.01, 0.5, 1.0, 1.7, 1.999, 2.0}) {
+  for (double d : {0.021, 0.5, 1.0, 1.7, 1.999, 2.0}) {
     const double c = d / 2, s = std::sqrt(1 - c * c), a = std::acos(c);
     const double area = M_PI - a + s * c;
     const double x = -2.0 / 3 * s * s * s;
@@ -302,6 +302,9 @@ TEST(GrainShape, BadTemplatesAreNamed) {
   EXPECT_EQ(refusal({{0, 0, INFINITY}}), "disc 1 has a coordinate or radius that is not a finite number");
   EXPECT_EQ(refusal({{0, 0, 1}, {2, 0, 1}, {0, 0, 1}}), "disc 1 is a duplicate of, or lies inside, disc 3");
   EXPECT_EQ(refusal({{0, 0, 1}, {0.3, 0.2, 0.5}}), "disc 2 is a duplicate of, or lies inside, disc 1");
+  EXPECT_EQ(refusal({{0, 0, 1}, {0.03, 0, 1}, {0.04, 0, 0.995}}),
+            "disc 3 is hardly another than disc 2: both would bear all contacts");
+  EXPECT_EQ(refusal({{0, 0, 1}, {0.021, 0, 1}, {1, 0, 1}, {1.03, 0, 0.98}}), "none"); // one sticks out of the other
   EXPECT_EQ(refusal({{0, 0, 1}, {2, 0, 1}, {5, 0, 1}, {7, 0, 1}}), "disc 3 is disconnected from disc 1");
   EXPECT_EQ(refusal({{0, 0, 1}, {2.001, 0, 1}}), "disc 2 is disconnected from disc 1");
 }

@@ -10,6 +10,7 @@ from .numerals import number
 
 MOST_DISCS = 1000
 TOUCHING = 1e-6  # as in src/core/grain_shape.h: largest gap between joined discs, over the smaller radius
+LEAST_DIFFERENCE = 0.02  # as there: of centres and radii of two discs, over the smaller radius
 _NAMED = {"single": [[0, 0, 1]], "triple": [[-1, 0, 1], [1, 0, 1], [0, 3**0.5, 1]]}
 _STRIPS = 2000
 
@@ -102,6 +103,10 @@ def _check(discs: np.ndarray) -> None:
     if inside.any():
         inner, outer = np.argwhere(inside)[0] + 1
         raise ValueError(f"disc {inner} is a duplicate of, or lies inside, disc {outer}")
+    alike = np.tril(apart + np.abs(r[:, None] - r) < LEAST_DIFFERENCE * np.minimum(r[:, None], r), -1)
+    if alike.any():
+        one, other = np.argwhere(alike)[0] + 1
+        raise ValueError(f"disc {one} is hardly another than disc {other}: both would bear all contacts")
     joined = apart <= r[:, None] + r + TOUCHING * np.minimum(r[:, None], r)
     reached = joined[0]
     for _ in r:

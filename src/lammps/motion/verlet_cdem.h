@@ -15,7 +15,8 @@
 // A fix that acts within every step, such as gravity or viscous, leaves no steps to be made this way. Then this style
 // is as run_style verlet, and a warning names the fix. Fixes that may be left out of such steps (host/glides.h) do not
 // matter: these are the fixes of this package, except fix cdem/lid with a variable for its stress. Needs pair_style
-// cdem.
+// cdem. With KOKKOS turned on (-k on -sf kk) LAMMPS allows no run style but its own, verlet/kk, which gives the same
+// bits.
 #pragma once
 
 #include "core/disc_motion.h"
