@@ -15,7 +15,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 python3 -m venv venv
-venv/bin/pip install -q python-ags4==1.2.0 pandas==2.3.3 numpy==2.4.6
+venv/bin/pip install -q --no-compile python-ags4==1.2.0 pandas==2.3.3 numpy==2.4.6
 
 cat >figures.py <<'END'
 import contextlib

@@ -14,7 +14,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 python3 -m venv venv
-venv/bin/pip install -q geoeq==0.1.3 numpy==2.4.6 scipy==1.17.1 matplotlib==3.10.8
+venv/bin/pip install -q --no-compile geoeq==0.1.3 numpy==2.4.6 scipy==1.17.1 matplotlib==3.10.8
 
 cat >line.py <<'END'
 from importlib.metadata import version

@@ -13,7 +13,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 python3 -m venv venv
-venv/bin/pip install -q geoeq==0.1.3 numpy==1.24.4 scipy==1.11.4 matplotlib==3.8.4 # of a NumPy that sorts alike on all processors
+venv/bin/pip install -q --no-compile geoeq==0.1.3 numpy==1.24.4 scipy==1.11.4 matplotlib==3.8.4 # of a NumPy that sorts alike on all processors
 
 cat >sieves.py <<'END'
 from importlib.metadata import version
