@@ -282,12 +282,12 @@ def test_the_study_goes_on_from_what_is_kept(tmp_path: Path, monkeypatch: pytest
     write_record(known("smooth", "A_4-8", [1]) | known("friction", "single_0", [1, 2, 4]), kept)
     words = [str(PAPER), "--out", str(out), "--with", str(kept), "--campaign", "friction", "--only", "single_0"]
     monkeypatch.setattr("sys.argv", words)
-    monkeypatch.setattr("subprocess.run", lambda command, check: asked.append(command))
+    monkeypatch.setattr("shearbox_tools.cli.main", asked.append)
     monkeypatch.setattr("paper_tools.study.print_page", lambda page: None)
     with pytest.raises(SystemExit) as end:
         runpy.run_path(str(PAPER), run_name="__main__")
     assert end.value.code == 0
-    assert [command[2:] for command in asked] == [
+    assert [words[1:] for words in asked] == [
         [
             str(campaign_file("friction")),
             "--out",
@@ -301,6 +301,21 @@ def test_the_study_goes_on_from_what_is_kept(tmp_path: Path, monkeypatch: pytest
         ]
     ]
     assert [one.seed for one in read_record(out)["friction"]["single_0"]] == [1, 2, 4]
+
+
+def test_a_campaign_that_was_stopped_or_failed_ends_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the exit status of `shearbox run`, which works in the same process: what ends the one ends the other."""
+    asked = list[list[str]]()
+    monkeypatch.setattr("sys.argv", [str(PAPER), "--out", str(tmp_path), "--campaign", "friction", "rolling"])
+
+    def stopped(words: list[str]) -> int:
+        asked.append(words)
+        return 143
+
+    monkeypatch.setattr("shearbox_tools.cli.main", stopped)
+    with pytest.raises(SystemExit) as end:
+        runpy.run_path(str(PAPER), run_name="__main__")
+    assert end.value.code == 143 and len(asked) == 1
 
 
 def test_a_record_of_another_study_is_refused(tmp_path: Path) -> None:
