@@ -330,3 +330,31 @@ def test_a_lid_of_constant_stiffness(tmp_path: Path, ranks: int) -> None:
         face - amplitude + amplitude * np.cos(omega * t), abs=1e-4 * amplitude
     )
     assert out.thermo["f_lid[1]"] == pytest.approx(stress * np.cos(omega * t), abs=1e-4 * stress)
+
+
+@pytest.mark.parametrize(("side", "normal", "sign"), [("top", (0, 1), 1), ("left", (1, 0), -1)])
+def test_the_face_of_a_lid_that_leaves_a_periodic_box(
+    tmp_path: Path, ranks: int, side: str, normal: tuple[int, int], sign: int
+) -> None:
+    """Without a stress a lid keeps its velocity outward, and its face goes on where LAMMPS puts its discs in at the other
+    side of the box, one by one if they are not in line."""
+    deck = """
+    include  ${decks}/start.in
+    fix      move grains cdem/integrate dt any
+    fix      lid walls cdem/lid stress 0 width 0.01 thickness 0.01 from ${side}
+    velocity walls set ${vx} ${vy} 0
+    timestep 1e-6
+    thermo   300
+    thermo_style custom step f_lid[3]
+    thermo_modify format float %.17g
+    run      1500
+    run      1500
+    """
+    v, r, (nx, ny) = 5.0, 2e-3, normal
+    discs = [Disc(nx * sign * d + ny * 5e-3, ny * sign * d + nx * 5e-3, type=2) for d in (0.0185, 0.0192)]
+    discs.append(Disc(0, 0))
+    done = run(
+        deck, tmp_path, discs=discs, ranks=ranks, bx="p", by="p", side=side, vx=sign * v * nx, vy=sign * v * ny
+    )  # fmt: skip
+    face = sign * (0.0185 - r + v * 1e-6 * done.thermo["Step"])
+    assert done.thermo["f_lid[3]"] == pytest.approx(face, rel=1e-9)

@@ -9,6 +9,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "force.h"
 #include "group.h"
@@ -193,9 +194,13 @@ bool FixCDEMLid::cap() {
 
 double FixCDEMLid::inner_face() const {
   double innermost = INFINITY, all;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (in_group(i))
-      innermost = std::min(innermost, sign * atom->x[i][axis] - reach(i));
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!in_group(i))
+      continue;
+    double x[3]; // as if LAMMPS had not put it back into a periodic box
+    domain->unmap(atom->x[i], atom->image[i], x);
+    innermost = std::min(innermost, sign * x[axis] - reach(i));
+  }
   MPI_Allreduce(&innermost, &all, 1, MPI_DOUBLE, MPI_MIN, world);
   return sign * all;
 }
