@@ -121,3 +121,28 @@ def test_the_stability_limit(tmp_path: Path, law: str, share: float) -> None:
         assert "blow" in str(error) or "moved" in str(error)
         calm = False
     assert calm == (share < 1)
+
+
+SWITCHED_ON = """
+include ${decks}/start.in
+fix      move grains cdem/integrate dt any gravity 0 -10
+timestep 1e-6
+compute  books grains cdem/energy audit yes
+thermo   1000
+thermo_style custom step c_books[7] c_books[9] c_books[10]
+thermo_modify format float %.17g
+run      1000
+fix_modify move damping ${damping}
+run      1000 pre no
+"""
+
+
+@pytest.mark.parametrize("style", ["verlet", "verlet/cdem"])
+def test_the_books_of_damping_that_is_switched_on_between_runs(tmp_path: Path, style: str) -> None:
+    """A grain that falls: damping takes the A-fold of the work of gravity since, also in a run without a setup. But for the
+    first half step of the second run, which begins with the acceleration that was."""
+    books = run(SWITCHED_ON, tmp_path, discs=[Disc(0, 0, vy=-1)], style=style, damping=A).thermo
+    drag, gravity, residual = (books[f"c_books[{k}]"] for k in (7, 9, 10))
+    assert drag[0] == 0
+    assert drag[1] == pytest.approx(A * (gravity[1] - gravity[0]), rel=1e-3)
+    assert abs(residual[1]) < 1e-3 * drag[1]

@@ -115,6 +115,7 @@ int FixCDEMIntegrate::modify_param(int narg, char **arg) {
   Shearbox::DeckWords words(lmp, "Fix cdem/integrate", narg, arg);
   take_body_force(words);
   tell_grains();
+  known_dt = 0; // the next step takes what depends on it anew, also in a run without a setup
   return words.read();
 }
 

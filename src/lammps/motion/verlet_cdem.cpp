@@ -41,8 +41,7 @@ void VerletCDEM::init() {
   }
 
   const std::string why = hindrance();
-  can_glide = why.empty();
-  if (!can_glide && comm->me == 0)
+  if (!why.empty() && comm->me == 0)
     error->warning(FLERR, "Run style verlet/cdem is no faster than verlet here: " + why);
 }
 
@@ -95,6 +94,7 @@ bigint VerletCDEM::next_rebuild() const {
 void VerletCDEM::run(int n) {
   run_start = update->ntimestep;
   const bigint last = run_start + n;
+  can_glide = hindrance().empty(); // fix_modify may have changed it before a run without a setup
   while (update->ntimestep < last && !stopped()) {
     const bigint look = std::min(last, next_look());
     if (can_glide && glide_to(look))
