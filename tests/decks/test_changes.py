@@ -320,3 +320,24 @@ def test_the_mass_of_the_circle_around_a_clump_is_refused(tmp_path: Path, how: d
     assert f"its discs have {mass / 2:.6g}: give the fix 'density 26.5', or 'density 53' if" in error
     run(deck.replace("2 single", "2 single density 53"), tmp_path, **how)  # it says so itself
     run(deck.replace(shape, f"{shape}\nset type 1 mass 1e-4"), tmp_path, **how)
+
+
+STOPPED = f"""
+{SETTING.replace("FILE", "discs.data")}
+set       group all density/disc 26.5
+unfix     push
+run       30
+group     grains clear
+group     grains id 2 3 4
+CHANGE
+run       30
+"""
+
+
+def test_grains_that_became_walls_with_a_velocity_are_told_of(tmp_path: Path) -> None:
+    """Contacts would take them for belts. Neither walls that a fix moves are, nor those that were brought to rest."""
+    belts = "1 walls that no fix moves have a velocity or spin"
+    still = "velocity one set 0 0 0\nset group one omega 0 0 0"
+    for change, told in {"": 1, still: 0, "fix hold one cdem/move speed 0": 0, "velocity one set 0 0 0": 1}.items():
+        log = run(STOPPED.replace("CHANGE", change), tmp_path, discs=DISCS, box=BOX, style="verlet/cdem").log
+        assert log.count(belts) == told, change

@@ -141,6 +141,8 @@ void FixCDEMIntegrate::init() {
   if (FixCDEMGrains::find(lmp) != grains)
     take_grains(); // ours was deleted
   refuse_second_integrator();
+  if (update->whichflag != 0) // else no run begins
+    warn_of_belts();
   audit = FixCDEMAudit::find(lmp);
   tell_grains();
   settle_angles();
@@ -194,6 +196,23 @@ void FixCDEMIntegrate::refuse_second_integrator() const {
         error->one(FLERR, "Fix cdem/integrate {}: fix {} of style {} moves grains of its group too", id, other->id,
                    other->style);
   }
+}
+
+// A grain that has left the group keeps its velocity, and contacts would see it slide or turn in its place.
+void FixCDEMIntegrate::warn_of_belts() const {
+  int moved = groupbit; // groups that some fix moves
+  for (int k = 0; k < modify->nfix; k++)
+    if (modify->fix[k]->time_integrate)
+      moved |= modify->fix[k]->groupbit;
+  bigint mine = 0, all;
+  for (int i = 0; i < atom->nlocal; i++)
+    mine += !(atom->mask[i] & moved) && (atom->v[i][0] != 0 || atom->v[i][1] != 0 || atom->omega[i][2] != 0);
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all > 0 && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix cdem/integrate {}: {} walls that no fix moves have a velocity or spin, and act as belts and "
+                   "rollers; for walls at rest: velocity GROUP set 0 0 0, set group GROUP omega 0 0 0",
+                   id, all);
 }
 
 // After all init(), where walls have got their velocities, and before atoms go to other ranks. Walls of no fix have no

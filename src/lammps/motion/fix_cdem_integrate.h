@@ -6,8 +6,10 @@
 // fix_modify ID damping A
 //
 // Velocity Verlet for grains in two dimensions, with inertia I = m r^2/2 for a disc, or as fix cdem/shape has it. Atoms
-// outside the group are walls: contacts do not move them. Exactly one fix of this style must exist, and no other
-// integrator may move its grains. Needs dimension 2, atom_style sphere and pair_style cdem.
+// outside the group are walls: contacts do not move them. One that no fix moves stands where it is, and the velocity
+// and spin that it has are those of a belt or a roller; as a grain that leaves the group keeps its own, a warning says
+// so. Exactly one fix of this style must exist, and no other integrator may move its grains. Needs dimension 2,
+// atom_style sphere and pair_style cdem.
 //
 //   dt check     refuse a time step beyond the stability limit of the scene (default)
 //   dt any       run with any time step
@@ -122,6 +124,7 @@ private:
   void tell_rules();
   void refuse_second_integrator() const;
   void refuse_lost_shapes() const;
+  void warn_of_belts() const;
   void add_body_forces();
   void take_accelerations();
   double smallest_disc() const;
