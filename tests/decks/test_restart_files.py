@@ -92,6 +92,17 @@ fix rain grains deposit 100 0 100000 4711 region place mol small units box
     assert (tmp_path / "rescue.restart").stat().st_size > 0
 
 
+def test_the_guard_has_the_last_word_where_grains_have_gone(tmp_path: Path) -> None:
+    """LAMMPS counts atoms before it writes a file. The file has the grains of its step, also those that have gone since."""
+    more = """group others id 1:4 6:16
+region all block INF INF INF INF INF INF
+fix out others evaporate 7000 1 all 4711
+"""
+    deck = RESCUE.replace("MORE", more).replace("thermo_modify lost ignore", "")
+    _fail(tmp_path, deck, bx="p", by="p", ranks=1)
+    assert run('newton off\nread_restart rescue.restart\nprint "atoms = $(atoms)"\n', tmp_path).printed("atoms") == 16
+
+
 def _fail(folder: Path, deck: str, ranks: int, **options: str) -> None:
     """The deck, whose run blows up at step 11501 or little later."""
     box = (-0.03, 0.03, -0.03, 0.03)

@@ -55,6 +55,8 @@ void Rescue::unpack_atoms(Copy &copy) {
   double *next = copy.atoms.data();
   for (int i = 0; i < copy.natoms; i++)
     next += atom->avec->unpack_exchange(next);
+  const bigint mine = atom->nlocal; // grains may have come or gone since
+  MPI_Allreduce(&mine, &atom->natoms, 1, MPI_LMP_BIGINT, MPI_SUM, world);
 }
 
 void Rescue::ask_fixes(Copy &copy) {
