@@ -25,6 +25,8 @@
 // without friction: phi and rolling must be 0 for contacts of these types. Such an atom is always a wall, never a grain
 // of fix cdem/integrate.
 //
+// displace_atoms rotate turns the places of grains about a point, and leaves the angle of each as it is.
+//
 // Every atom type needs one template. Centre of mass, area and inertia are those of the union of the discs, see
 // core/grain_shape.h. At most one fix of this style may exist. Without it, all atoms are single discs.
 //
