@@ -358,3 +358,21 @@ def test_the_face_of_a_lid_that_leaves_a_periodic_box(
     )  # fmt: skip
     face = sign * (0.0185 - r + v * 1e-6 * done.thermo["Step"])
     assert done.thermo["f_lid[3]"] == pytest.approx(face, rel=1e-9)
+
+
+@pytest.mark.parametrize("style", ["verlet", "verlet/cdem"])
+@pytest.mark.parametrize("how", ["yes", "no"])
+def test_a_moved_wall_knows_a_time_step_that_changed(tmp_path: Path, how: str, style: str) -> None:
+    """Its displacement is that of the time that has passed, also in a run without a setup."""
+    deck = f"""
+    include  ${{decks}}/start.in
+    fix      move grains cdem/integrate dt any
+    fix      wall walls cdem/move speed 2
+    timestep 1e-6
+    thermo_style custom step f_wall[1]
+    run      100
+    timestep 2.5e-7
+    run      100 pre {how}
+    """
+    done = run(deck, tmp_path, discs=[Disc(0, 0), Disc(0.01, 0, type=2)], style=style)
+    assert done.thermo["f_wall[1]"][-1] == pytest.approx(2 * 1.25e-4, rel=1e-6)

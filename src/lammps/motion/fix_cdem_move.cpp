@@ -86,6 +86,7 @@ void FixCDEMMove::apply() { set_motion(along(now.speed), along(now.acceleration)
 void FixCDEMMove::initial_integrate(int) {
   if (path.speed == 0)
     return;
+  reset_dt(); // timestep may have changed it before a run without a setup
   clock.steps++;
   const double before = now.s;
   now = motion();
