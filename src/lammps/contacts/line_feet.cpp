@@ -39,10 +39,10 @@ void LineFeet::find_neighbours() {
   for (int row = 0; row < rows.rows_of(atom->nlocal + atom->nghost); row++)
     if (rows.is_line(row))
       pieces.push_back(row);
+  const double far = neighbor->skin; // no further do two rows move towards each other until the next list
   for (Foot &foot : feet)
     for (int row : pieces)
-      if (const double far = neighbor->skin; // no further do two rows move towards each other until the next list
-          meets(row, foot, foot.line.half, far) || meets(row, foot, -foot.line.half, far))
+      if (meets(row, foot, foot.line.half, far) || meets(row, foot, -foot.line.half, far))
         foot.beside.push_back(row);
 }
 

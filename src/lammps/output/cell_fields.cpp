@@ -124,12 +124,12 @@ cdem::FieldSums::Largest CellFields::largest(const std::vector<Contact> &contact
 template <class Visit>
 void CellFields::for_each_image(const cdem::Rectangle &in, const cdem::Rectangle &part, Visit visit) const {
   const double px = domain->xperiodic ? domain->xprd : 0, py = domain->yperiodic ? domain->yprd : 0;
-  const auto first = [](double least, double period) { return period > 0 ? std::ceil(least / period) : 0; };
-  const auto last = [](double most, double period) { return period > 0 ? std::floor(most / period) : 0; };
-  for (double j = first(in.ylo - part.yhi, py); j <= last(in.yhi - part.ylo, py); j++) {
-    const double tilt = j * domain->xy;
-    for (double i = first(in.xlo - part.xhi - tilt, px); i <= last(in.xhi - part.xlo - tilt, px); i++)
-      visit(cdem::Point{i * px + tilt, j * py});
+  const auto first = [](double least, double period) { return period > 0 ? bigint(std::ceil(least / period)) : 0; };
+  const auto last = [](double most, double period) { return period > 0 ? bigint(std::floor(most / period)) : 0; };
+  for (bigint j = first(in.ylo - part.yhi, py); j <= last(in.yhi - part.ylo, py); j++) {
+    const double tilt = double(j) * domain->xy;
+    for (bigint i = first(in.xlo - part.xhi - tilt, px); i <= last(in.xhi - part.xlo - tilt, px); i++)
+      visit(cdem::Point{double(i) * px + tilt, double(j) * py});
   }
 }
 
