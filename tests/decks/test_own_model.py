@@ -112,8 +112,7 @@ def test_grains_that_pull_have_no_inertial_number(tmp_path: Path) -> None:
     tension, of which there is no root."""
     (tmp_path / "loose.in").write_text(LOOSE)
     options: dict[str, Any] = OPTIONS | {"models": tmp_path, "model": "loose", "sigma": 1}
-    for deck in ("pack", "consolidate"):
-        run((INPUT / f"{deck}.in").read_text(), tmp_path, **options)
+    consolidate(tmp_path, **options)
     options |= {"speed": 200, "travel": 3, "frames": 1}
     run(SHEAR, tmp_path, **options)
     rows = read_shear(tmp_path / SHEAR_TABLE)

@@ -94,7 +94,7 @@ bigint VerletCDEM::next_rebuild() const {
 void VerletCDEM::run(int n) {
   run_start = update->ntimestep;
   const bigint last = run_start + n;
-  can_glide = hindrance().empty(); // fix_modify may have changed it before a run without a setup
+  const bool can_glide = hindrance().empty(); // fix_modify may have changed it before a run without a setup
   while (update->ntimestep < last && !stopped()) {
     const bigint look = std::min(last, next_look());
     if (can_glide && glide_to(look))

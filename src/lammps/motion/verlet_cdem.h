@@ -67,7 +67,6 @@ private:
   std::vector<SumsSteps *> statistics;
   std::vector<int> felt; // own wall discs whose forces are needed in every step
 
-  bool can_glide = false;
   bigint run_start = 0;
   cdem::StepRule rule{};
   double reach = 0;     // largest distance of a disc's centre from that of its own grain (m)
