@@ -333,3 +333,38 @@ def test_the_face_of_a_smooth_lid(tmp_path: Path, side: str, along: str, place: 
     out = run(WALL + far + LID, tmp_path, law="direct", style="verlet/cdem", ranks=1, **(UPRIGHT | upright), x=0.03, y=0.03,
               gvx=0, gvy=0, gx=0, gy=0, side=side)  # fmt: skip
     assert out.thermo["f_lid[3]"] == pytest.approx(place, abs=1e-12)
+
+
+def test_lists_of_a_long_wall(tmp_path: Path) -> None:
+    """A list takes time that grows with the length of a wall, not with its square: eight times for a floor of eight times as
+    many pieces and discs, and not 64 times, as when each disc looks at all pieces for those that meet its own."""
+    deck = """
+units si
+dimension 2
+boundary f f p
+atom_style sphere
+atom_modify map array
+newton off
+comm_modify vel yes
+region b block -0.01 $(0.004*v_n+0.01) -0.01 0.01 -0.01 0.01
+create_box 2 b
+fix shape all cdem/shape type 1 single type 2 line 1 0
+cdem/create 2 row 0.002 -0.002 $(0.004*v_n-0.002) -0.002 ${n} diameter 0.008 density 26.5
+cdem/create 1 row 0.004 0.002 $(0.004*v_n-0.004) 0.002 $(v_n-1) diameter 0.004 density 26.5
+group grains type 1
+pair_style cdem law direct
+pair_coeff * * 1e8 2.5e7 0.215 0.215 0
+neighbor 1e-3 bin
+neigh_modify delay 0 every 1 check no
+run_style verlet/cdem
+fix move grains cdem/integrate
+timestep 2e-7
+thermo_style custom step cpu
+thermo 50
+run 50
+"""
+
+    def seconds(n: int) -> float:
+        return min(float(run(deck, tmp_path, n=n).thermo["CPU"][-1]) for _ in range(3))
+
+    assert seconds(4000) < 20 * seconds(500)

@@ -64,6 +64,8 @@ void DiscPairList::rebuild(const NeighList *of_grains) {
   neighbours_built_at.resize(atom->nlocal);
   for (int i = 0; i < atom->nlocal; i++)
     neighbours_built_at[i] = {atom->x[i][0], atom->x[i][1], step};
+  if (rows.has_lines())
+    feet.find_joints();
   build();
 }
 

@@ -20,12 +20,11 @@ void LineFeet::take_over(cdem::DiscPairs &pairs) {
         if (!rows.is_line(a) && !rows.is_line(b))
           continue;
         const int piece = rows.is_line(a) ? a : b;
-        feet.push_back({a + b - piece, piece, k, rows.line(piece), {}, true});
+        feet.push_back({a + b - piece, piece, k, rows.line(piece), &beside[piece], true});
         piece_of_foot.push_back(piece);
       }
     first_of_block.push_back(int(feet.size()));
   }
-  find_neighbours();
   rows.make_feet(piece_of_foot);
   for (std::size_t n = 0; n < feet.size(); n++) {
     const int k = feet[n].pair, row = rows.foot_row(int(n));
@@ -34,24 +33,37 @@ void LineFeet::take_over(cdem::DiscPairs &pairs) {
   }
 }
 
-void LineFeet::find_neighbours() {
-  pieces.clear();
+// Pieces are sorted by their place along the diagonal, which tells apart those of upright and of flat walls alike: only
+// few lie so close there that they may meet, so the work grows with the number of pieces, not with its square.
+void LineFeet::find_joints() {
+  struct Piece {
+    double place, half;
+    int row;
+  };
+  std::vector<Piece> pieces;
+  double longest = 0;
   for (int row = 0; row < rows.rows_of(atom->nlocal + atom->nghost); row++)
-    if (rows.is_line(row))
-      pieces.push_back(row);
-  const double far = neighbor->skin; // no further do two rows move towards each other until the next list
-  for (Foot &foot : feet)
-    for (int row : pieces)
-      if (meets(row, foot, foot.line.half, far) || meets(row, foot, -foot.line.half, far))
-        foot.beside.push_back(row);
+    if (rows.is_line(row)) {
+      pieces.push_back({(rows[row].x + rows[row].y) * M_SQRT1_2, rows.line(row).half, row});
+      longest = std::max(longest, pieces.back().half);
+    }
+  std::sort(pieces.begin(), pieces.end(), [](const Piece &a, const Piece &b) { return a.place < b.place; });
+
+  beside.clear();
+  const double far = neighbor->skin; // no further do two rows move towards each other until LAMMPS's next list
+  for (auto p = pieces.begin(); p != pieces.end(); ++p)
+    for (auto q = p + 1; q != pieces.end() && q->place - p->place < p->half + longest + M_SQRT2 * far; ++q)
+      if (meets(q->row, p->row, p->half, far) || meets(q->row, p->row, -p->half, far)) {
+        beside[p->row].push_back(q->row);
+        beside[q->row].push_back(p->row);
+      }
 }
 
-bool LineFeet::meets(int row, const Foot &foot, double along, double tolerance) const {
-  if (row == foot.piece)
-    return false;
+bool LineFeet::meets(int row, int piece, double along, double tolerance) const {
+  const auto [vx, vy, unused] = rows.line(piece);
   const auto [ux, uy, half] = rows.line(row);
-  const double dx = rows[foot.piece].x + along * foot.line.ux - rows[row].x;
-  const double dy = rows[foot.piece].y + along * foot.line.uy - rows[row].y;
+  const double dx = rows[piece].x + along * vx - rows[row].x;
+  const double dy = rows[piece].y + along * vy - rows[row].y;
   return std::fabs(std::fabs(dx * ux + dy * uy) - half) < tolerance && std::fabs(dx * uy - dy * ux) < tolerance;
 }
 
@@ -106,8 +118,8 @@ bool LineFeet::acts(const Foot &f, double along) const {
     return true;
   const cdem::Disc<double> &disc = rows[f.disc];
   const double here = cdem::square_distance(disc, rows[f.piece], f.line);
-  return std::none_of(f.beside.begin(), f.beside.end(), [&](int other) {
-    if (!meets(other, f, std::copysign(f.line.half, along), TOLERANCE * f.line.half))
+  return std::none_of(f.beside->begin(), f.beside->end(), [&](int other) {
+    if (!meets(other, f.piece, std::copysign(f.line.half, along), TOLERANCE * f.line.half))
       return false;
     const double there = cdem::square_distance(disc, rows[other], rows.line(other));
     return here != there ? there < here : atom->tag[rows.grain(other)] < atom->tag[rows.grain(f.piece)];

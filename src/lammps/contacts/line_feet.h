@@ -14,6 +14,7 @@
 
 #include "pointers.h"
 
+#include <unordered_map>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -22,6 +23,8 @@ class LineFeet : protected Pointers {
 public:
   LineFeet(LAMMPS *lmp, GrainRows &of_grains) : Pointers(lmp), rows(of_grains) {}
 
+  // To be called when LAMMPS has rebuilt its list and the rows are filled: finds which pieces may meet.
+  void find_joints();
   // Gives every pair of a disc and a piece of a line a row for its foot. To be called last when a list of pairs is
   // made.
   void take_over(cdem::DiscPairs &);
@@ -35,25 +38,24 @@ public:
 
 private:
   // On the piece of row `piece`, of a disc, for a pair. `beside`: rows of the pieces that may meet it at one of its
-  // ends before the next list.
+  // ends before LAMMPS's next list.
   struct Foot {
     int disc, piece, pair;
     cdem::WallLine line;
-    std::vector<int> beside;
+    const std::vector<int> *beside;
     bool acts;
   };
   static constexpr double ELSEWHERE = 0.5 * cdem::TOUCHING; // N; no contact of a smooth wall remembers such a spring
 
-  void find_neighbours();
-  // Whether the piece of this row has one of its ends within so far of the end of a foot's piece at `along` (m).
-  bool meets(int row, const Foot &, double along, double tolerance) const;
+  // Whether the piece of row `row` has one of its ends within so far of that end of another that is at `along` (m).
+  bool meets(int row, int piece, double along, double tolerance) const;
   bool acts(const Foot &, double along) const;
   double overlap_before(const cdem::DiscPairs &, int k, double dt) const;
 
   GrainRows &rows;
   std::vector<Foot> feet;
   std::vector<int> first_of_block; // the feet of block k are first_of_block[k] ... first_of_block[k+1]-1
-  std::vector<int> pieces;         // rows of all pieces, ghosts too
+  std::unordered_map<int, std::vector<int>> beside; // by row of a piece, ghosts too
 };
 
 } // namespace LAMMPS_NS
