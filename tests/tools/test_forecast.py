@@ -55,11 +55,20 @@ def test_time_goes_with_grains_and_jobs(tmp_path):
     assert seconds(total([small] * 8, 2)) == pytest.approx(4 * one, rel=0.05), "but that of another specimen"
 
 
-def test_the_speed_of_the_packing_that_is_done_here(tmp_path):
-    """A microsecond a disc and step: 22 times as slow as usual, and so is shear. What is done takes no more time."""
+def test_ranks_share_the_grains(tmp_path):
+    """Four ranks take a quarter of the time, but for the frames, which one of them writes."""
+    asked = replace(request("TypeD_30x10_2-4_1-circle_9000"), settings={"frames": "1"})
+    assert Forecast(tmp_path, asked).seconds == pytest.approx(4 * Forecast(tmp_path, asked, 4).seconds, rel=0.01)
+
+
+@pytest.mark.parametrize("ranks, loop", [(1, 35), (2, 17.5)])
+def test_the_speed_of_the_packing_that_is_done_here(tmp_path, ranks, loop):
+    """A microsecond of a core for a disc and step: 22 times as slow as usual, and so is shear, whatever the ranks of either. What
+    is done takes no more time."""
     pack = packing(tmp_path, request())
     pack.folder.mkdir()
-    pack.log.write_text("Loop time of 35 on 1 procs for 100000 steps with 500 atoms\n" + GOODBYE, encoding="utf-8")
+    log = f"Loop time of {loop} on {ranks} procs for 100000 steps with 500 atoms\n{GOODBYE}"
+    pack.log.write_text(log, encoding="utf-8")
     finish(pack)
     slow = Forecast(tmp_path, request())
     assert "556 ns a disc and step" in total([slow], 2) and "pack: done" in slow.lines

@@ -26,11 +26,13 @@ STEPS_OF_PACKING, STEPS_PER_DIAMETER, STEPS_OF_CONSOLIDATION = 20_000, 250, 10_0
 
 
 class Forecast:
-    """Of what is left to do of a request in its folder; nothing is written."""
+    """Of what is left to do of a request in its folder, by phases of so many ranks, which share their grains evenly; nothing is
+    written."""
 
-    def __init__(self, folder: Path, request: Request) -> None:
+    def __init__(self, folder: Path, request: Request, ranks: int = 1) -> None:
         self._folder = folder
         self._request = request
+        self._ranks = ranks
         self._packing = packing(folder, request)
         self._shearing = [phase for sigma in request.stresses for phase in shearing(folder, request, sigma)]
         self._dt = time_step(request)
@@ -61,7 +63,7 @@ class Forecast:
 
     @property
     def pace(self) -> float:
-        """Seconds a disc and step of shear."""
+        """Seconds of a core for a disc and step of shear."""
         return self._slowness * SECONDS[SHEAR]
 
     @property
@@ -75,16 +77,16 @@ class Forecast:
         return sum(map(self.left, self.phases))
 
     def seconds_with(self, jobs: int) -> float:
-        """The same with so many phases at a time, on a core each: nothing runs beside the packing."""
+        """The same with so many phases at a time, on cores of their own: nothing runs beside the packing."""
         stresses = len(self._request.stresses)
         share = math.ceil(stresses / jobs) / stresses
         return self.left(self._packing) + share * sum(map(self.left, self._shearing))
 
     def work(self, phase: Phase) -> float:
-        """Time of a whole phase."""
+        """Time of a whole phase. Frames are written by one rank."""
         frames = frames_of(phase.variables) if phase.frames else 0
         pace = self._slowness * SECONDS[phase.name]
-        return self._discs * (self._steps(phase) * pace + frames * SECONDS_PER_DISC_AND_FRAME)
+        return self._discs * (self._steps(phase) * pace / self._ranks + frames * SECONDS_PER_DISC_AND_FRAME)
 
     def share_done(self, phase: Phase) -> float:
         """The part of a phase that is done, from 0 to 1; of one that ends when the grains are at rest, about."""
@@ -116,9 +118,9 @@ class Forecast:
         return self._request.travel / self._request.speed / self._dt
 
     def _recorded_pace(self) -> float | None:
-        """Seconds a disc and step of the packing, if it is done."""
+        """Seconds of a core for a disc and step of the packing, if it is done."""
         log = read_logs(self._packing.log)
-        return log.seconds / log.steps / self._discs if self._packing.done and log.steps else None
+        return log.core_seconds / log.steps / self._discs if self._packing.done and log.steps else None
 
 
 def seconds_of_all(forecasts: Sequence[Forecast], jobs: int) -> float:

@@ -50,12 +50,12 @@ class Layout:
     @cached_property
     def forecasts(self) -> list[list[Forecast]]:
         """Of the runs of each element."""
-        return [[Forecast(run.folder, run.request) for run in element] for element in self.elements]
+        return [[Forecast(run.folder, run.request, self._ranks) for run in element] for element in self.elements]
 
     @property
     def seconds(self) -> float:
-        """Estimate of the longest element, if ranks share its work evenly."""
-        return max(seconds_of_all(some, self.at_a_time) for some in self.forecasts) / self._ranks
+        """Estimate of the longest element."""
+        return max(seconds_of_all(some, self.at_a_time) for some in self.forecasts)
 
     @cached_property
     def notice(self) -> int:
@@ -64,7 +64,7 @@ class Layout:
             one.work(phase) for some in self.forecasts for one in some for phase in one.phases if phase.name == SHEAR
         ]
         sealing = max(sum(one.bytes for one in some) for some in self.forecasts) / BYTES_SEALED
-        return math.ceil(LEAST_NOTICE + 2 * TIMES * max(rows) / rows_of_shear() / self._ranks + sealing)
+        return math.ceil(LEAST_NOTICE + 2 * TIMES * max(rows) / rows_of_shear() + sealing)
 
     @property
     def minutes(self) -> int:

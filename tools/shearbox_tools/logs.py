@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 _NUMBER = r"\d{1,15}(?:\.\d*)?(?:e[-+]?\d\d)?"
-_LOOP = re.compile(rf"^Loop time of ({_NUMBER}) on \d+ procs for (\d{{1,18}}) steps", re.MULTILINE)
+_LOOP = re.compile(rf"^Loop time of ({_NUMBER}) on (\d{{1,9}}) procs for (\d{{1,18}}) steps", re.MULTILINE)
 # "Other" has its mean in the next column, and is not looked for; the second form is LIGGGHTS's
 _LIGGGHTS = r"^LIGGGHTS \(Version LIGGGHTS-PUBLIC ([^,]*),"
 _SHARE = re.compile(
@@ -22,6 +22,7 @@ class Log:
     shearbox: str | None = None
     steps: int = 0
     seconds: float = 0.0
+    core_seconds: float = 0.0  # of all ranks together
     parts: dict[str, float] = field(default_factory=dict)  # seconds (mean over the ranks) by part of the step
 
     @property
@@ -40,8 +41,9 @@ def read_log(path: Path) -> Log:
     except OSError:
         return Log()
     log = Log(_first(r"^LAMMPS \(([^)]*)\)", text) or _first(_LIGGGHTS, text), _first(r"^Shearbox (.*)$", text))
-    for seconds, steps in _LOOP.findall(text):
+    for seconds, ranks, steps in _LOOP.findall(text):
         log.seconds += float(seconds)
+        log.core_seconds += float(seconds) * int(ranks)
         log.steps += int(steps)
     for part, seconds in _SHARE.findall(text):
         log.parts[part] = log.parts.get(part, 0.0) + float(seconds)
@@ -56,6 +58,7 @@ def read_logs(path: Path) -> Log:
         log = read_log(earlier)
         total.steps += log.steps
         total.seconds += log.seconds
+        total.core_seconds += log.core_seconds
         for part, spent in log.parts.items():
             total.parts[part] = total.parts.get(part, 0.0) + spent
     return total

@@ -57,7 +57,7 @@ def run(options: argparse.Namespace, asked: list[dict[str, Any]]) -> None:
     out, runs, engine = prepare(options, asked)
     console = Console()
     _note_cores(min(options.jobs, tests_of(runs)), engine.ranks, console)
-    forecasts = [Forecast(one.folder, one.request) for one in runs]
+    forecasts = [Forecast(one.folder, one.request, engine.ranks) for one in runs]
     if options.dry_run:
         _say(console, f"{forecast_text(runs, forecasts)}\nin all {total(forecasts, options.jobs)}, into {out}")
         return
@@ -156,7 +156,7 @@ def carry_out(
 
     Asked to end by SIGUSR1, it does so with restart files of now, and raises KeyboardInterrupt.
     """
-    forecasts = [Forecast(one.folder, one.request) for one in runs]
+    forecasts = [Forecast(one.folder, one.request, engine.ranks) for one in runs]
     _say(console, f"left: {total(forecasts, jobs)}")
     display = display or make_display(console, whole(runs))
     campaign = Campaign(runs, engine, display, locks)
@@ -264,7 +264,7 @@ def forecast_text(runs: list[Run], forecasts: list[Forecast]) -> str:
         if forecast.head not in lines:
             lines.append(forecast.head)
         left = [phase for phase in forecast.phases if not phase.done]
-        what = f"{len(left)} phases, {duration(forecast.seconds)} on a core" if left else "done"
+        what = f"{len(left)} phases, {duration(forecast.seconds)} one after the other" if left else "done"
         stresses = " ".join(f"{sigma:g}" for sigma in one.request.stresses)
         lines.append(f"{one.name}: seed {one.request.seed}, {stresses} kPa: {what}")
     return "\n".join(lines)
