@@ -304,4 +304,17 @@ def test_what_is_set_is_told():
     usual = read_variables(PARAMETERS)
     of_file = {name: value for name, value in usual.items() if name not in OWN_OPTION}
     identity = REQUEST.identity(of_file | {"phi": "35.0", "kn": "1e8"})  # kn as it is, in other words
-    assert what_is_set(SimpleNamespace(identity=identity | {"stiffness": 0.1})) == "stiffness 0.1, phi 35"
+    identity |= {"stiffness": 0.1, "model dmin": 0.0045}
+    run = SimpleNamespace(identity=identity, model_file=REQUEST.model.path)
+    ensemble = SimpleNamespace(identity=identity, specimens=[run])
+    assert what_is_set(ensemble) == "dmin 0.0045, stiffness 0.1, phi 35"
+    run.model_file = Path("gone.in")
+    assert what_is_set(ensemble) == "stiffness 0.1, phi 35"
+
+
+def test_models_of_a_name_are_told_apart_by_their_variables(runs):
+    """Those of another name are told apart by it."""
+    finer = with_identity(runs[0], **{"model dmin": 0.003, "model ngrains": 500})
+    other = with_identity(runs[0], model="other", **{"model dmin": 0.002})
+    ensembles, _ = put_together([runs[0], finer, other])
+    assert what_differs(ensembles) == ["dmin 0.004, ngrains 350", "dmin 0.003, ngrains 500", ""]
