@@ -250,6 +250,16 @@ def test_the_page_is_well_formed_and_its_links_lead_somewhere(folder):
         assert words in " ".join(page.text.split()), words
 
 
+def test_tables_of_an_earlier_report_do_not_stay(tmp_path):
+    """Of two ensembles there are two tables, in the place of that of one; what no report has written stays."""
+    (tmp_path / "curves_7.csv").write_text("mine", encoding="utf-8")
+    two = replace(REQUEST, stresses=(100.0,))
+    for request, written in ((two, ["curves.csv"]), (replace(two, speed=10.0), ["curves_1.csv", "curves_2.csv"])):
+        write_run(tmp_path / f"{request.speed:g}", request)
+        report_on(tmp_path, each=False)
+        assert sorted(path.name for path in tmp_path.glob("curves*")) == sorted([*written, "curves_7.csv"])
+
+
 def test_the_summary_says_what_is_left_out(folder):
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     found = {one["differs"]: [s["folder"] for s in one["specimens"]] for one in summary["ensembles"]}
