@@ -165,14 +165,10 @@ def _verdict(verdict: Verdict) -> dict[str, Any]:
     return {"holds": verdict.holds, "reason": verdict.reason}
 
 
-def _time_step(shear: Shear, speed: float) -> float | None:
-    """dt from steps and displacements; the speed (mm/s) is constant between the ramp and the stop at the end."""
-    steps, displacement = shear.data["step"], shear.data["displacement_mm"]
-    begin, end = len(steps) // 2, 3 * len(steps) // 4
-    if steps[end] == steps[begin]:
-        return None
-    seconds = (displacement[end] - displacement[begin]) / speed
-    return float(f"{seconds / (steps[end] - steps[begin]):.4g}")
+def _time_step(shear: Shear, speed: float) -> float:
+    """dt from steps and displacements in the rows at full speed (mm/s)."""
+    steps, displacement = (np.ptp(shear.data[name][shear.rows]) for name in ("step", "displacement_mm"))
+    return float(f"{displacement / speed / steps:.4g}")
 
 
 def phase_logs(results: Results) -> dict[str, Log]:
