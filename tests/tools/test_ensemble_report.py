@@ -179,7 +179,7 @@ def test_shares_of_specimens(runs):
 
 
 def states(peak: Dilatant, end: Dilatant) -> Results:
-    return SimpleNamespace(shears=[SimpleNamespace(at_peak=peak, at_end=end)])  # type: ignore[return-value]
+    return SimpleNamespace(shears=[SimpleNamespace(sigma=100.0, at_peak=peak, at_end=end)])  # type: ignore[return-value]
 
 
 def by_rowe(critical: float, psi: float) -> Dilatant:
@@ -320,6 +320,19 @@ def test_what_is_set_is_told():
     assert what_is_set(ensemble) == "dmin 0.0045, stiffness 0.1, phi 35"
     run.model_file = Path("gone.in")
     assert what_is_set(ensemble) == "stiffness 0.1, phi 35"
+
+
+def test_means_over_stresses_are_of_those_that_all_have(runs):
+    one, two, three = runs
+    fewer = replace(two, stresses=[100.0, 200.0], shears=two.shears[:2])
+    mean = Ensemble([one, fewer, three]).over_specimens(lambda shear: shear.sigma)
+    assert (mean.value, mean.low, mean.high) == (150, 150, 150)
+    apart = [replace(run, stresses=[shear.sigma], shears=[shear]) for run, shear in zip(runs, one.shears)]
+    assert (
+        Ensemble(apart).over_specimens(lambda shear: shear.sigma).value == 200
+    ), "each stress has a packing of its own"
+    none = [replace(one, shears=one.shears[:1]), replace(two, shears=two.shears[1:])]
+    assert Ensemble([*none, three]).over_specimens(lambda shear: shear.sigma) is None
 
 
 def test_models_of_a_name_are_told_apart_by_their_variables(runs):
