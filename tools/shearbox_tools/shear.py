@@ -95,6 +95,8 @@ class Shear:
             remarks.append(self.doubt if not self.complete else f"the peak cannot be judged: {self.doubt}")
         if self.peak.at_boundary:
             remarks.append("τ has no peak within the travel; its greatest value is taken")
+        if self.plane and self.plane.peak.at_boundary:
+            remarks.append("τ on the shear plane has no peak within the travel; its greatest value is taken")
         if self.peaks_differ:
             remarks.append(
                 "the polynomial's peak is not that of the smoothed data: they are apart by more than their errors"

@@ -129,12 +129,13 @@ def _stress(results: Results, shear: Shear) -> dict[str, Any]:
     }
 
 
-def _on_plane(plane: OnPlane | None) -> dict[str, float | None]:
+def _on_plane(plane: OnPlane | None) -> dict[str, float | bool | None]:
     """Stresses on the shear plane; null where they are not known."""
     return {
         "plane_tau_peak_kPa": plane.peak.value if plane else None,
         "plane_tau_peak_error_kPa": plane.peak.value_error if plane else None,
         "displacement_at_plane_peak_mm": plane.peak.position if plane else None,
+        "plane_peak_at_boundary": plane.peak.at_boundary if plane else None,
         "plane_at_peak_kPa": plane.sigma_at_peak if plane else None,
         "plane_at_peak_error_kPa": plane.sigma_at_peak_error if plane else None,
         "plane_at_end_kPa": plane.at_end[0] if plane else None,
