@@ -64,6 +64,41 @@ def test_stresses_of_a_packing_are_one_specimen(tmp_path):
     assert runs[0].folder == tmp_path
 
 
+def test_tests_of_other_contacts_are_no_specimen_together(tmp_path):
+    """Rolling resistance, cohesion, walls, inertia and the friction of packing are told by commands of the logs; where they differ
+    tests of a packing are no stresses of one specimen, and packings no ensemble."""
+    ends = ["", "  cohesion 5", " rolling 0.1 0.215 "]
+    for number, end in enumerate(ends):
+        log = write_test(tmp_path / f"contacts_{number}", 100 + number) / "shear.log"
+        log.write_text(log.read_text(encoding="utf-8").replace("0.215 31", "0.215 31" + end), encoding="utf-8")
+    for number, command in enumerate(
+        ("pair_coeff   1 2 1e8 2e7 0.215 0.215 15", "fix motion grains cdem/integrate dt check inertia 10")
+    ):
+        log = write_test(tmp_path / f"others_{number}", 200 + number) / "shear.log"
+        log.write_text(f"{log.read_text(encoding='utf-8')}{command}\n", encoding="utf-8")
+    loose = write_test(tmp_path / "loose", 300)
+    pack = "pair_coeff   1 1 1e8 2.5e7 0.215 0.215 45\nwrite_restart packed.restart\n"
+    (loose / "pack.log").write_text(pack, encoding="utf-8")
+    runs, left_out = read_by_hand([*sorted(tmp_path.iterdir())], None, None)
+    assert not left_out and [run.stresses for run in runs] == [[100], [101], [102], [300], [200], [201]]
+    told = [run.identity["parameters"] for run in runs]
+    assert [(one["rolling"], one["cohesion"]) for one in told[:3]] == [("0", "0"), ("0", "5"), ("0.1", "0")]
+    assert told[3]["phi_packing"] == "45" and "phi_packing" not in told[0]
+    assert (told[4]["ks_wall"], told[4]["phi_wall"], told[5]["inertia"]) == ("20000000", "15", "10")
+
+
+def test_stress_and_travel_are_as_told_to_six_digits_and_as_measured_to_three(tmp_path):
+    folder = write_test(tmp_path / "a", 125, log=None)
+    (measured,), _ = read_by_hand([folder], MODEL, 2)
+    assert measured.stresses == [125]
+    told = write_test(tmp_path / "b", 33.3)
+    log = (told / "shear.log").read_text(encoding="utf-8")
+    log = log.replace("stress 33300.0", "stress 33299.999999999996362").replace("stop 0.008000", "stop 0.0080125")
+    (told / "shear.log").write_text(log, encoding="utf-8")
+    (run,), _ = read_by_hand([told], None, None)
+    assert (run.stresses, run.identity["travel_mm"]) == ([33.3], 8.0125)
+
+
 def test_a_packing_counts_once(tmp_path):
     for name in ("a", "b"):
         write_test(tmp_path / name, 100)

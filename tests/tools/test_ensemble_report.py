@@ -179,7 +179,7 @@ def test_shares_of_specimens(runs):
 
 
 def states(peak: Dilatant, end: Dilatant) -> Results:
-    return SimpleNamespace(shears=[SimpleNamespace(at_peak=peak, at_end=end)])  # type: ignore[return-value]
+    return SimpleNamespace(shears=[SimpleNamespace(sigma=100.0, at_peak=peak, at_end=end)])  # type: ignore[return-value]
 
 
 def by_rowe(critical: float, psi: float) -> Dilatant:
@@ -250,6 +250,16 @@ def test_the_page_is_well_formed_and_its_links_lead_somewhere(folder):
         assert words in " ".join(page.text.split()), words
 
 
+def test_tables_of_an_earlier_report_do_not_stay(tmp_path):
+    """Of two ensembles there are two tables, in the place of that of one; what no report has written stays."""
+    (tmp_path / "curves_7.csv").write_text("mine", encoding="utf-8")
+    two = replace(REQUEST, stresses=(100.0,))
+    for request, written in ((two, ["curves.csv"]), (replace(two, speed=10.0), ["curves_1.csv", "curves_2.csv"])):
+        write_run(tmp_path / f"{request.speed:g}", request)
+        report_on(tmp_path, each=False)
+        assert sorted(path.name for path in tmp_path.glob("curves*")) == sorted([*written, "curves_7.csv"])
+
+
 def test_the_summary_says_what_is_left_out(folder):
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     found = {one["differs"]: [s["folder"] for s in one["specimens"]] for one in summary["ensembles"]}
@@ -304,4 +314,30 @@ def test_what_is_set_is_told():
     usual = read_variables(PARAMETERS)
     of_file = {name: value for name, value in usual.items() if name not in OWN_OPTION}
     identity = REQUEST.identity(of_file | {"phi": "35.0", "kn": "1e8"})  # kn as it is, in other words
-    assert what_is_set(SimpleNamespace(identity=identity | {"stiffness": 0.1})) == "stiffness 0.1, phi 35"
+    identity |= {"stiffness": 0.1, "model dmin": 0.0045}
+    run = SimpleNamespace(identity=identity, model_file=REQUEST.model.path)
+    ensemble = SimpleNamespace(identity=identity, specimens=[run])
+    assert what_is_set(ensemble) == "dmin 0.0045, stiffness 0.1, phi 35"
+    run.model_file = Path("gone.in")
+    assert what_is_set(ensemble) == "stiffness 0.1, phi 35"
+
+
+def test_means_over_stresses_are_of_those_that_all_have(runs):
+    one, two, three = runs
+    fewer = replace(two, stresses=[100.0, 200.0], shears=two.shears[:2])
+    mean = Ensemble([one, fewer, three]).over_specimens(lambda shear: shear.sigma)
+    assert (mean.value, mean.low, mean.high) == (150, 150, 150)
+    apart = [replace(run, stresses=[shear.sigma], shears=[shear]) for run, shear in zip(runs, one.shears)]
+    assert (
+        Ensemble(apart).over_specimens(lambda shear: shear.sigma).value == 200
+    ), "each stress has a packing of its own"
+    none = [replace(one, shears=one.shears[:1]), replace(two, shears=two.shears[1:])]
+    assert Ensemble([*none, three]).over_specimens(lambda shear: shear.sigma) is None
+
+
+def test_models_of_a_name_are_told_apart_by_their_variables(runs):
+    """Those of another name are told apart by it."""
+    finer = with_identity(runs[0], **{"model dmin": 0.003, "model ngrains": 500})
+    other = with_identity(runs[0], model="other", **{"model dmin": 0.002})
+    ensembles, _ = put_together([runs[0], finer, other])
+    assert what_differs(ensembles) == ["dmin 0.004, ngrains 350", "dmin 0.003, ngrains 500", ""]

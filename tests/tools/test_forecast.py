@@ -13,6 +13,8 @@ from shearbox_tools.models import find_model
 from shearbox_tools.phases import SHEAR, Phase, packing, shearing, steps_between_frames
 from shearbox_tools.readers import BED
 from shearbox_tools.request import Request
+from shearbox_tools.run import forecast_text
+from shearbox_tools.specimens import Run
 
 GOODBYE = "Total wall time: 0:00:01\n"
 
@@ -45,6 +47,24 @@ def test_time_step_without_damping_is_that_of_the_lattice():
     assert time_step(replace(asked, stiffness=0.25)) == pytest.approx(2 * time_step(asked))
     assert time_step(replace(asked, settings={"dt_max": "1e-8"})) == 1e-8
     assert time_step(replace(asked, dt="5e-7")) == 5e-7
+
+
+def test_what_is_not_as_usual_is_told(tmp_path):
+    head, *settings = Forecast(tmp_path, request()).head.split("\n")
+    assert head.startswith("TypeA_10x5_4-8_1-circle_350: 350 grains") and not settings
+    asked = replace(request(), law="incremental", dt="1e-7", stiffness=2.0, settings={"phi": "30"})
+    told = ["law = incremental", "dt = 1e-7", "stiffness = 2.0", "phi = 30"]
+    assert Forecast(tmp_path, asked).head.split("\n")[1:] == told
+
+
+def test_each_run_is_told_under_its_own_settings(tmp_path):
+    """Runs of a campaign take turns."""
+    asked = [replace(request(), seed=seed, law=law) for seed in (1, 2) for law in ("direct", "incremental")]
+    runs = [Run(tmp_path / f"{one.law}_{one.seed}", one, f"{one.law}_{one.seed}") for one in asked]
+    text = forecast_text(runs, [Forecast(run.folder, run.request) for run in runs])
+    direct, incremental = text.split("law = incremental\n")
+    assert [line.split(":")[0] for line in incremental.split("\n")] == ["incremental_1", "incremental_2"]
+    assert [line.split(":")[0] for line in direct.split("\n")][1:3] == ["direct_1", "direct_2"]
 
 
 def test_time_goes_with_grains_and_jobs(tmp_path):

@@ -9,9 +9,9 @@ from shearbox_tools.motion import full_speed
 TRAVEL, ROWS, STEPS = 8.0, 800, 60
 
 
-def phase(ramp: float, rows: int = ROWS) -> dict[str, np.ndarray]:
+def phase(ramp: float, rows: int = ROWS, until: float = 0.95 * ROWS) -> dict[str, np.ndarray]:
     """Means of s over intervals of 1; ramp is its duration: s = V/2 (t - T/pi sin(pi t/T)), then V (t - T/2) up to 8."""
-    speed = TRAVEL / (0.95 * ROWS - ramp / 2)
+    speed = TRAVEL / (until - ramp / 2)
     t = (np.arange(rows * 100) + 0.5) / 100
     begin = speed / 2 * (t - ramp / np.pi * np.sin(np.pi * t / max(ramp, 1e-9)) * (ramp > 0))
     s = np.minimum(np.where(t < ramp, begin, speed * (t - ramp / 2)), TRAVEL)
@@ -25,6 +25,12 @@ def test_ramp_and_stop_are_left_out(ramp: int) -> None:
     rows = full_speed(phase(ramp))
     assert ramp - 2 <= rows.start <= ramp
     assert rows.stop == 760
+
+
+@pytest.mark.parametrize("until", [300, 20])
+def test_a_box_that_stands_still_in_most_rows(until: int) -> None:
+    rows = full_speed(phase(2, until=until))
+    assert (rows.start, rows.stop) == (2, until)
 
 
 def test_what_still_moves_has_no_stop() -> None:

@@ -162,6 +162,18 @@ def test_the_table_behind_the_curves(reported):
     assert table["dilatancy_rate"][half] == pytest.approx(slope[half], abs=1e-3)
 
 
+@pytest.mark.usefixtures("undrawn")
+def test_a_test_of_many_steps_that_stands_still_in_half_of_its_rows(folder):
+    """Steps beyond 10^8 have all their digits; rows are means over what the box moves in them."""
+    table = synthetic.curves(100, 8)
+    table |= {"step": 1234567 * np.arange(1.0, 801), "displacement_mm": np.minimum(2 * table["displacement_mm"], 8)}
+    synthetic.write_shear(folder / "100" / "shear.dat", table)
+    page = report(folder).read_text(encoding="utf-8")
+    assert "averages over\n  0.02 mm" in page
+    written = np.genfromtxt(folder / "100" / "curve.csv", delimiter=",", names=True)
+    assert written["step"].tolist() == table["step"].tolist()
+
+
 def test_the_same_folder_gives_the_same_files(reported):
     names = ("summary.json", "report.html", "100/curve.csv")
     before = [(reported / name).read_bytes() for name in names]

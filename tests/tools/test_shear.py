@@ -146,3 +146,24 @@ def test_dilatancy_of_a_straight_lid() -> None:
     assert shear.at_peak.dilation_deg == pytest.approx(np.degrees(np.arctan(0.2)))
     assert shear.at_end.dilation_deg == pytest.approx(np.degrees(np.arctan(0.2)))
     assert shear.at_end.ratio == pytest.approx(np.mean(shear.data["tau_kPa"][640:]) / 200)
+
+
+def test_an_edge_on_the_shear_plane_is_told() -> None:
+    """Though the lower half has its peak within the travel."""
+    data = curves(200, 8)
+    plane = {"plane_kPa": np.full(800, 200.0), "plane_tau_kPa": 10 * S + noise(800, 1)}
+    (remark,) = sheared(data | plane).remarks
+    assert remark == "τ on the shear plane has no peak within the travel; its greatest value is taken"
+    assert not sheared(data | plane | {"plane_tau_kPa": data["tau_kPa"]}).remarks
+
+
+def test_dilatancy_of_a_peak_at_the_end_is_held() -> None:
+    """The lid's rise fades away, with scatter: its angle is known to a degree, that of the polynomial's end is not."""
+    found, ends = [], []
+    for seed in range(12):
+        data = with_stress(10 * S + noise(800, 0.1, seed))
+        shear = sheared(data | {"lid_mm": np.sin(np.pi * S / 16) + noise(800, 0.02, seed + 100)})
+        assert shear.peak.at_boundary and shear.peak.position == shear.lid.span
+        found.append(shear.at_peak.dilation_deg)
+        ends.append(np.degrees(np.arctan(shear.lid.series.deriv()(shear.lid.span))))
+    assert np.sqrt(np.mean(np.square(found))) < 1.5 < np.sqrt(np.mean(np.square(ends)))

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from shearbox_tools.models import model_files
+from shearbox_tools.models import find_model, model_files
+from shearbox_tools.request import Request
 from shearbox_tools.strength import fit_line, known_scatter
 
 SIGMA = np.array([100.0, 200, 300, 400])
@@ -73,5 +74,7 @@ def test_the_known_scatter_is_that_of_the_study(model: str) -> None:
         if len(phi) > 3
         else "not known"
     )
-    assert said in known_scatter(model)
-    assert len(phi) < 4 or f"standard deviation {statistics.stdev(phi):.1f}°" in known_scatter(model)
+    identity = Request(find_model(model), (100.0,)).identity({})
+    assert said in known_scatter(identity)
+    assert len(phi) < 4 or f"standard deviation {statistics.stdev(phi):.1f}°" in known_scatter(identity)
+    assert "not known" in known_scatter(identity | {"model dmin": 0.001})  # another model of that name

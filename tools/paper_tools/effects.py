@@ -54,7 +54,7 @@ def difference(label: str, first: np.ndarray, second: np.ndarray) -> Effect:
 
 
 def paired(label: str, first: np.ndarray, second: np.ndarray) -> Effect:
-    """The same of specimens that are the same packings, in order."""
+    """The same of specimens that belong together, in order."""
     means = differences.mean(first), differences.mean(second)
     return _known(label, len(first), differences.difference(*means, paired=True))
 

@@ -20,7 +20,7 @@ from .grouping import LeftOut
 from .models import PARAMETERS, Model, find_model, read_variables
 from .motion import full_speed
 from .numerals import numeral
-from .phases import CONSOLIDATE, SHEAR
+from .phases import CONSOLIDATE, PACK, SHEAR
 from .polynomial import FEWEST_ROWS
 from .readers import Columns, read_row, read_shear
 from .results import Results, lost_grains
@@ -31,14 +31,20 @@ UNKNOWN = "unknown"
 ANY_DECK = "log.lammps", "log.liggghts"  # where none is named, the log of the last deck
 SPEED = "speed_mm_s"
 _NUMBER = r"([-+.\de]+)"
+_CONTACT = " ".join([_NUMBER] * 5)
+_MARKS = {SHEAR: "cdem/move", PACK: "write_restart packed.restart"}  # in the log of that deck and of no other
 _COMMANDS = {
     "model": r"include +\$\{models\}/\$\{model\}\.in\n(?:include .*\$.*\n)*include +(\S+)",
     "lower": rf"fix +lower lower cdem/move speed {_NUMBER} ramp {_NUMBER} stop {_NUMBER}",
     "lid": rf"fix +lid +lid +cdem/lid stress {_NUMBER} width {_NUMBER} thickness {_NUMBER}",
-    "contact": rf"pair_coeff +1 1 {_NUMBER} {_NUMBER} {_NUMBER} {_NUMBER} {_NUMBER}",
+    "contact": rf"pair_coeff +1 1 {_CONTACT}(?: +rolling {_NUMBER} {_NUMBER})?(?: +cohesion {_NUMBER})? *$",
+    "wall": rf"pair_coeff +1 2 {_CONTACT}",
+    "inertia": rf"fix +motion +grains +cdem/integrate .* inertia {_NUMBER}",
     "law": r"pair_style +(?:cdem law|gran model) (direct|incremental)(?:_accumulation)?",
     "packed": r"read_restart +([^\s$]*packed[^\s$]*)",
 }
+
+Said = dict[str, tuple[str, ...]]  # values in commands of a log, by the name of the command
 
 
 @dataclass(frozen=True)
@@ -121,15 +127,15 @@ def _read(folder: Path, model: str | None, speed: float | None) -> Test:
     if pace is None:
         raise InputError(f"{folder}: {_no_log(folder)} tells the speed of the lower half: give --speed, in mm/s")
     travel = 1000 * float(said["lower"][2]) if "lower" in said else float(data["displacement_mm"][-1])
-    sigma = float(said["lid"][0]) / 1000 if "lid" in said else float(f"{np.mean(data['sigma_kPa']):.2g}")
+    sigma = float(f"{float(said['lid'][0]) / 1000:.6g}" if "lid" in said else f"{np.mean(data['sigma_kPa']):.3g}")
     bed = _row(folder / CONSOLIDATED_TABLE)
     identity = {
         "model": described.name,
         **{f"model {name}": value for name, value in described.variables.items()},
         SPEED: float(f"{pace:.6g}"),
-        "travel_mm": float(f"{travel:.3g}"),
+        "travel_mm": float(f"{travel:.6g}"),
         "law": said.get("law", (UNKNOWN,))[0],
-        "parameters": _parameters(said),
+        "parameters": _parameters(said, _commands(_packed_in(folder), PACK)),
     }
     rows = full_speed(data)
     if rows.stop - rows.start < FEWEST_ROWS:
@@ -140,7 +146,7 @@ def _read(folder: Path, model: str | None, speed: float | None) -> Test:
     return Test(folder, identity, described.path, shear, _packing(folder), bed, problems, _sources(folder, said))
 
 
-def _model(folder: Path, said: dict[str, tuple[str, ...]], model: str | None) -> Model:
+def _model(folder: Path, said: Said, model: str | None) -> Model:
     """As its file says now; width as the test had it."""
     if model is None and "model" not in said:
         raise InputError(f"{folder}: {_no_log(folder)} tells the model: give --model, a name or a file")
@@ -151,13 +157,19 @@ def _model(folder: Path, said: dict[str, tuple[str, ...]], model: str | None) ->
     return replace(described, width=float(said["lid"][1])) if "lid" in said else described
 
 
-def _parameters(said: dict[str, tuple[str, ...]]) -> dict[str, str]:
-    """Of contacts and thickness as they were; of the rest, and of what is not told, as parameters.in says."""
-    names = ("kn", "ks", "hn", "hs", "phi")
-    contact = dict(zip(names, (numeral(float(value)) for value in said.get("contact", ()))))
+def _parameters(said: Said, packing: Said) -> dict[str, str]:
+    """Of contacts, inertia and thickness as they were, and of friction while packing, where logs tell it; density as parameters.in
+    says, and thickness where it is not told."""
     assumed = read_variables(PARAMETERS)
-    thickness = numeral(float(said["lid"][2])) if "lid" in said else assumed["thickness"]
-    return {"density": assumed["density"], "thickness": thickness, **contact}
+    told = {
+        **dict(zip(("kn", "ks", "hn", "hs", "phi", "rolling", "", "cohesion"), said.get("contact", ()))),
+        **dict(zip(("kn_wall", "ks_wall", "", "", "phi_wall"), said.get("wall", ()))),
+        **dict(zip(("inertia",), said.get("inertia", ()))),
+        **dict(zip(("phi_packing",), packing.get("contact", ())[4:])),
+        "thickness": said["lid"][2] if "lid" in said else assumed["thickness"],
+    }
+    of_log = {name: numeral(float(value or 0)) for name, value in told.items() if name}
+    return {"density": assumed["density"], **of_log}
 
 
 def _is_complete(data: Columns, travel: float) -> bool:
@@ -167,16 +179,20 @@ def _is_complete(data: Columns, travel: float) -> bool:
 
 def _packing(folder: Path) -> dict[str, float] | None:
     """The table beside the restart file that was consolidated, or in the folder."""
+    return _row(_packed_in(folder) / PACKED_TABLE)
+
+
+def _packed_in(folder: Path) -> Path:
+    """Where the restart file was that was consolidated."""
     said = _commands(folder, CONSOLIDATE)
-    place = (folder / said["packed"][0]).parent if "packed" in said else folder
-    return _row(place / PACKED_TABLE)
+    return (folder / said["packed"][0]).parent if "packed" in said else folder
 
 
 def _row(path: Path) -> dict[str, float] | None:
     return read_row(path) if path.exists() else None
 
 
-def _sources(folder: Path, said: dict[str, tuple[str, ...]]) -> list[str]:
+def _sources(folder: Path, said: Said) -> list[str]:
     """Where the numbers come from, and why there is no picture."""
     if said:
         log = _log(folder, SHEAR).name
@@ -197,13 +213,13 @@ def _no_log(folder: Path) -> str:
     return f"no log in it ({SHEAR}.log, {' or '.join(ANY_DECK)})"
 
 
-def _commands(folder: Path, deck: str) -> dict[str, tuple[str, ...]]:
+def _commands(folder: Path, deck: str) -> Said:
     """The values in each command that has them all, of a log of that deck."""
     try:
         text = _log(folder, deck).read_text(encoding="utf-8", errors="replace")
     except OSError:
         return {}
-    if deck == SHEAR and "cdem/move" not in text:
+    if _MARKS.get(deck, "") not in text:
         return {}
     found = {name: re.search(rf"^{pattern}(?=\s|$)", text, re.MULTILINE) for name, pattern in _COMMANDS.items()}
     return {name: match.groups() for name, match in found.items() if match}

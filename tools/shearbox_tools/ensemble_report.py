@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The report on many runs: report.html, summary.json, a table of mean curves for each ensemble; and each run's own."""
 
+import json
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -39,6 +41,7 @@ def report_on_runs(
         reasons = [f"{one.folder}: {one.reason}" for one in left_out]
         raise ShearboxError(f"{folder}: no specimen is complete yet\n" + "\n".join(reasons))
     tables = ["curves.csv"] if len(ensembles) == 1 else [f"curves_{k + 1}.csv" for k in range(len(ensembles))]
+    _remove_others(folder, tables)
     for table, ensemble in zip(tables, ensembles):
         write_text(folder / table, as_csv(list(ensemble.curves.values())))
     summary = summarise_all(folder, ensembles, left_out, tables)
@@ -49,6 +52,18 @@ def report_on_runs(
     if problems:
         raise ShearboxError(f"{page} is written, but not all files can be read:\n" + "\n".join(problems))
     return page
+
+
+def _remove_others(folder: Path, tables: Sequence[str]) -> None:
+    """Tables of an earlier report on more or fewer ensembles, by its summary: nobody would see that they are not of this one."""
+    try:
+        summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
+        before = {str(one["curves"]) for one in summary["ensembles"]}
+    except (OSError, ValueError, LookupError, TypeError, RecursionError):
+        return
+    for name in before - {*tables}:
+        if re.fullmatch(r"curves(_\d+)?\.csv", name):
+            (folder / name).unlink(missing_ok=True)
 
 
 def _read_and_report(folder: Path) -> Results | str:

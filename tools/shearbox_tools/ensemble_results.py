@@ -135,9 +135,11 @@ class Ensemble:
         return None if mean is None else as_angle(mean)
 
     def over_specimens(self, value: Callable[[Shear], float | None]) -> Estimate | None:
-        """Mean over specimens of the mean over their stresses; None of a single specimen, or where it cannot be told."""
-        every = [[value(shear) for shear in specimen.shears] for specimen in self.specimens]
-        return estimate([None if None in row else float(np.mean(np.array(row, float))) for row in every])
+        """Mean over specimens of the mean over their stresses, of shared packings over those that all have: what differs from stress to
+        stress is no scatter. None of a single specimen, or where it cannot be told."""
+        counted = self.shears if self.independent else self.common
+        every = [[value(shear) for shear in specimen.shears if shear.sigma in counted] for specimen in self.specimens]
+        return estimate([float(np.mean(np.array(row, float))) if row and None not in row else None for row in every])
 
     def critical_at_end(self, relation: str) -> Estimate | None:
         """phi_cv (degrees) of the end by 'rowe' or 'bolton'."""

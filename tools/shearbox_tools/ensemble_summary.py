@@ -48,7 +48,7 @@ def _ensemble(folder: Path, ensemble: Ensemble) -> dict[str, Any]:
         **_strength(ensemble.smoothed_strength, "_smoothed"),
         **_strength(ensemble.plane_strength, "_plane"),
         "fit_alone": _fit_alone(ensemble),
-        "known_scatter": known_scatter(ensemble.identity["model"]),
+        "known_scatter": known_scatter(ensemble.identity),
         "phi_ultimate_deg": _estimate(ensemble.ultimate_angle),
         "dilation_at_peak_deg": _estimate(ensemble.over_specimens(lambda shear: shear.at_peak.dilation_deg)),
         "phi_cv_at_end_deg": {name: _estimate(ensemble.critical_at_end(name)) for name in RELATIONS},

@@ -43,11 +43,14 @@ class Forecast:
     def head(self) -> str:
         """A line for the model, and one for each setting."""
         request, model = self._request, self._request.model
+        usual = Request(model, ())
+        options = {name: getattr(request, name) for name in ("host", "law", "dt", "stiffness")}
+        asked = {name: value for name, value in options.items() if value != getattr(usual, name)} | request.settings
         return "\n".join(
             [
                 f"{model.name}: {model.ngrains} grains of {model.discs} disc{'s' * (model.discs > 1)}, box "
                 f"{100 * model.width:g} x {200 * model.half_height:g} cm, {request.travel:g} mm at {request.speed:g} mm/s",
-                *(f"{name} = {value}" for name, value in request.settings.items()),
+                *(f"{name} = {value}" for name, value in asked.items()),
             ]
         )
 

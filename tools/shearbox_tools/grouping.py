@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from .ensemble_results import Ensemble
-from .models import PARAMETERS, read_variables
+from .errors import ShearboxError
+from .models import PARAMETERS, read_model, read_variables
 from .parameters import canonical
 from .results import Results
 
@@ -47,26 +48,43 @@ def settings_of(identity: Mapping[str, Any]) -> dict[str, str]:
 
 
 def what_differs(ensembles: Sequence[Ensemble]) -> list[str]:
-    """For each ensemble what tells it from others of the same model; tests run by hand do not know all settings."""
+    """For each ensemble what tells it from others, variables of the model from those of a model of the same name; tests run by
+    hand do not know all settings."""
     settings = [settings_of(ensemble.identity) for ensemble in ensembles]
-    names = [
-        name
-        for name in dict.fromkeys(name for one in settings for name in one)
-        if not name.startswith("model") and len({one[name] for one in settings if name in one}) > 1
-    ]
-    return [", ".join(_named(name, one[name]) for name in names if name in one) for one in settings]
+    names = list(dict.fromkeys(name for one in settings for name in one if name != "model"))
+    told = []
+    for one in settings:
+        alike = [other for other in settings if other["model"] == one["model"]]
+        differing = [name for name in names if _differs(name, alike if name.startswith(_OF_THE_MODEL) else settings)]
+        told.append(", ".join(_named(name, one[name]) for name in differing if name in one))
+    return told
 
 
-_ELSEWHERE = ("model", "speed_mm_s", "travel_mm", "law")
+def _differs(name: str, settings: Sequence[Mapping[str, str]]) -> bool:
+    return len({one[name] for one in settings if name in one}) > 1
+
+
+_OF_THE_MODEL = "model "
+_ELSEWHERE = ("model", "model ngrains", "speed_mm_s", "travel_mm", "law")
 
 
 def what_is_set(ensemble: Ensemble) -> str:
-    """Settings that are not as parameters.in has them now; size of the grains, speed, travel and law are told elsewhere."""
-    usual = {name: canonical(value) for name, value in read_variables(PARAMETERS).items()}
-    there = {name: value for name, value in settings_of(ensemble.identity).items() if not name.startswith(_ELSEWHERE)}
-    return ", ".join(_named(name, value) for name, value in there.items() if value != usual.get(name))
+    """Settings that are not as parameters.in and the file of the model have them now; number of grains, speed, travel and law are
+    told elsewhere."""
+    usual = read_variables(PARAMETERS) | _of_its_file(ensemble.specimens[0])
+    there = {name: value for name, value in settings_of(ensemble.identity).items() if name not in _ELSEWHERE}
+    return ", ".join(_named(name, value) for name, value in there.items() if value != canonical(usual.get(name, "")))
+
+
+def _of_its_file(run: Results) -> dict[str, str]:
+    """Variables of the model as its file has them; as they were, if it is gone."""
+    try:
+        variables = read_model(run.model_file).variables
+    except ShearboxError:
+        return {name: str(value) for name, value in run.identity.items() if name.startswith(_OF_THE_MODEL)}
+    return {_OF_THE_MODEL + name: str(value) for name, value in variables.items()}
 
 
 def _named(name: str, value: str) -> str:
-    shown, unit = UNITS.get(name, (name, ""))
+    shown, unit = UNITS.get(name, (name.removeprefix(_OF_THE_MODEL), ""))
     return f"{shown} {value}{unit}"

@@ -3,9 +3,11 @@
 
 import difflib
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -150,6 +152,14 @@ def find_model(name: str, settings: dict[str, str] | None = None, friction: floa
     close = [n for n in known if name.lower() in n.lower()] or difflib.get_close_matches(name, known, 3, 0.5)
     hint = "Did you mean\n  " + "\n  ".join(close[:4]) + "\n" if close else "'shearbox models' lists them. "
     raise InputError(f"unknown model '{name}'. {hint}A name may also be {FORM}. A file of your own ends in {SUFFIX}")
+
+
+def is_of_the_decks(identity: Mapping[str, Any]) -> bool:
+    """Whether the model of a run is the one of that name in the decks, in all its variables."""
+    path = INPUT / "models" / (identity["model"] + SUFFIX)
+    if not path.is_file():
+        return False
+    return all(identity.get(f"model {name}") == value for name, value in read_model(path).variables.items())
 
 
 def table_order(model: Model) -> tuple[bool, bool, float, float]:

@@ -123,7 +123,7 @@ def _thickness(results: Results) -> float | None:
 
 
 def _curve(shear: Shear) -> str:
-    """The table of a shear phase with its fitted curves and dilatancy rate, as CSV."""
+    """The table of a shear phase with its fitted curves and dilatancy rate, as CSV; steps of slow tests have ten digits."""
     s = shear.data["displacement_mm"]
     columns = {name: column for name, column in shear.data.items() if name != "step"}
     columns["step"] = shear.data["step"]
@@ -135,7 +135,7 @@ def _curve(shear: Shear) -> str:
     columns["dilatancy_rate"] = shear.lid.series.deriv()(s)
     text = io.StringIO()
     np.savetxt(
-        text, np.column_stack(list(columns.values())), fmt="%.8g", delimiter=",", header=",".join(columns), comments=""
+        text, np.column_stack(list(columns.values())), fmt="%.10g", delimiter=",", header=",".join(columns), comments=""
     )
     return text.getvalue()
 
@@ -146,10 +146,15 @@ def _page(results: Results, summary: dict[str, Any], specimens: dict[float, Stil
     values = dict(
         summary=summary, line=results.line, plane_line=results.plane_line, knows_plane=results.knows_plane, diagrams=_diagrams(results),
         pictures=draw_specimens(specimens), specimens=specimens, film=film, maps=draw_maps(fields), mapped=list(fields), column_titles=curves.OTHERS, logs=phase_logs(results),
-        consolidations=[(f"{sigma:g}", bed) for sigma, bed in results.consolidations.items()], known_scatter=known_scatter(results.identity["model"]), comments=_comments(results.model_file),
+        row_mm=max(map(_row_mm, results.shears)), consolidations=[(f"{sigma:g}", bed) for sigma, bed in results.consolidations.items()], known_scatter=known_scatter(results.identity), comments=_comments(results.model_file),
     )  # fmt: skip
     size = len(render(PAGE_TEMPLATE, **values, size_MB=0))
     return render(PAGE_TEMPLATE, **values, size_MB=size / 1e6)
+
+
+def _row_mm(shear: Shear) -> float:
+    """Shear displacement over which a row of the table at full speed is a mean."""
+    return float(np.mean(np.diff(shear.data["displacement_mm"][shear.rows])))
 
 
 def _comments(model: Path) -> dict[str, str]:

@@ -256,18 +256,17 @@ def _check_folders(out: Path, runs: list[Run], given: dict[str, Any]) -> None:
 
 
 def forecast_text(runs: list[Run], forecasts: list[Forecast]) -> str:
-    """Each phase of a single run; of several, a line for each, under that of their model."""
+    """Each phase of a single run; of several, a line for each, under that of their model and settings."""
     if len(runs) == 1:
         return "\n".join([forecasts[0].head, *forecasts[0].lines])
-    lines: list[str] = []
+    under: dict[str, list[str]] = {}
     for one, forecast in zip(runs, forecasts):
-        if forecast.head not in lines:
-            lines.append(forecast.head)
         left = [phase for phase in forecast.phases if not phase.done]
         what = f"{len(left)} phases, {duration(forecast.seconds)} one after the other" if left else "done"
         stresses = " ".join(f"{sigma:g}" for sigma in one.request.stresses)
-        lines.append(f"{one.name}: seed {one.request.seed}, {stresses} kPa: {what}")
-    return "\n".join(lines)
+        line = f"{one.name}: seed {one.request.seed}, {stresses} kPa: {what}"
+        under.setdefault(forecast.head, []).append(line)
+    return "\n".join(line for head, lines in under.items() for line in (head, *lines))
 
 
 def whole(runs: list[Run]) -> Whole:

@@ -12,7 +12,7 @@ import numpy as np
 from .features import dilates, peak_at_steepest
 from .peak import Peak, find_peak
 from .plane import OnPlane, on_plane
-from .polynomial import Fit, fit_curve
+from .polynomial import Fit, end_zone, fit_curve
 from .quasistatic import Inertia, imbalance_percent, inertial_number
 from .readers import Columns
 from .smoothed import find_smoothed_peak
@@ -95,6 +95,8 @@ class Shear:
             remarks.append(self.doubt if not self.complete else f"the peak cannot be judged: {self.doubt}")
         if self.peak.at_boundary:
             remarks.append("τ has no peak within the travel; its greatest value is taken")
+        if self.plane and self.plane.peak.at_boundary:
+            remarks.append("τ on the shear plane has no peak within the travel; its greatest value is taken")
         if self.peaks_differ:
             remarks.append(
                 "the polynomial's peak is not that of the smoothed data: they are apart by more than their errors"
@@ -115,8 +117,10 @@ class Shear:
 
     @property
     def at_peak(self) -> Dilatant:
-        """Stress ratio and dilatancy at the peak of the polynomial."""
-        return Dilatant(self.peak.value / self.sigma, float(self.lid.series.deriv()(self.peak.position)))
+        """Stress ratio and dilatancy at the peak of the polynomial; where that is the end of the travel, dilatancy is that before the
+        end zone, in which the slope of the lid's polynomial is hardly held."""
+        position = min(self.peak.position, self.lid.span - end_zone(self.lid.span))
+        return Dilatant(self.peak.value / self.sigma, float(self.lid.series.deriv()(position)))
 
     @cached_property
     def at_end(self) -> Dilatant:

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Coulomb's line tau_f = c + sigma tan(phi) through the peaks (the paper's eq. 5), with its uncertainty."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.special import ndtri, stdtrit
+
+from .models import is_of_the_decks
 
 COVERAGE = 0.95
 # of examples/paper/measured/specimens.csv: packings, least and greatest φ and its standard deviation, °
@@ -38,9 +42,10 @@ class Line:
         return self.quantile * np.sqrt(np.einsum("ij,jk,ik->i", design, self.covariance, design))
 
 
-def known_scatter(model: str) -> str:
-    """What is known of how specimens of a model differ from one to the next."""
-    if model not in _SCATTER:
+def known_scatter(identity: Mapping[str, Any]) -> str:
+    """What is known of how specimens of a run's model differ from one to the next; of the decks' models alone, as they are there."""
+    model = identity["model"]
+    if model not in _SCATTER or not is_of_the_decks(identity):
         return "How specimens of this model differ is not known; --seeds 8 tells."
     count, least, greatest, deviation = _SCATTER[model]
     return f"{count} packings of this model, with the parameters of the decks, had φ from {least} to {greatest}°, standard deviation {deviation}°."

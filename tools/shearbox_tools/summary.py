@@ -129,12 +129,13 @@ def _stress(results: Results, shear: Shear) -> dict[str, Any]:
     }
 
 
-def _on_plane(plane: OnPlane | None) -> dict[str, float | None]:
+def _on_plane(plane: OnPlane | None) -> dict[str, float | bool | None]:
     """Stresses on the shear plane; null where they are not known."""
     return {
         "plane_tau_peak_kPa": plane.peak.value if plane else None,
         "plane_tau_peak_error_kPa": plane.peak.value_error if plane else None,
         "displacement_at_plane_peak_mm": plane.peak.position if plane else None,
+        "plane_peak_at_boundary": plane.peak.at_boundary if plane else None,
         "plane_at_peak_kPa": plane.sigma_at_peak if plane else None,
         "plane_at_peak_error_kPa": plane.sigma_at_peak_error if plane else None,
         "plane_at_end_kPa": plane.at_end[0] if plane else None,
@@ -165,14 +166,10 @@ def _verdict(verdict: Verdict) -> dict[str, Any]:
     return {"holds": verdict.holds, "reason": verdict.reason}
 
 
-def _time_step(shear: Shear, speed: float) -> float | None:
-    """dt from steps and displacements; the speed (mm/s) is constant between the ramp and the stop at the end."""
-    steps, displacement = shear.data["step"], shear.data["displacement_mm"]
-    begin, end = len(steps) // 2, 3 * len(steps) // 4
-    if steps[end] == steps[begin]:
-        return None
-    seconds = (displacement[end] - displacement[begin]) / speed
-    return float(f"{seconds / (steps[end] - steps[begin]):.4g}")
+def _time_step(shear: Shear, speed: float) -> float:
+    """dt from steps and displacements in the rows at full speed (mm/s)."""
+    steps, displacement = (np.ptp(shear.data[name][shear.rows]) for name in ("step", "displacement_mm"))
+    return float(f"{displacement / speed / steps:.4g}")
 
 
 def phase_logs(results: Results) -> dict[str, Log]:
