@@ -146,6 +146,16 @@ def test_strength_by_the_shear_plane(runs):
     assert plane.c_kPa.value == pytest.approx(0.8 * lid.c_kPa.value)
     assert np.tan(np.radians(plane.phi_deg.value)) == pytest.approx(np.tan(np.radians(lid.phi_deg.value)) * 0.8 / 1.25)
 
+    def uncertain(shear: Shear) -> Shear:
+        tau = 5 + synthetic.correlated_noise(np.random.default_rng(1), len(shear.data["step"]), 40, 8)
+        return replace(shear, data=shear.data | {"plane_tau_kPa": tau})
+
+    first, *others = known.specimens
+    doubtful = replace(first, shears=[uncertain(first.shears[0]), *first.shears[1:]])
+    assert first.plane_line and doubtful.line and doubtful.plane_line is None, "a peak that cannot be judged"
+    ensemble = Ensemble([doubtful, *others])
+    assert ensemble.strength and ensemble.plane_strength is None
+
 
 def only(run: Results, *stresses: float) -> Results:
     return replace(run, stresses=list(stresses), shears=[s for s in run.shears if s.sigma in stresses])

@@ -157,6 +157,16 @@ def test_an_edge_on_the_shear_plane_is_told() -> None:
     assert not sheared(data | plane | {"plane_tau_kPa": data["tau_kPa"]}).remarks
 
 
+def test_peaks_on_the_shear_plane_are_judged_as_that_of_the_lower_half_is() -> None:
+    """By their error."""
+    data = curves(200, 8)
+    uncertain = {"plane_kPa": np.full(800, 200.0), "plane_tau_kPa": data["tau_kPa"] / 10 + noise(800, 40)}
+    assert "too uncertain" in (sheared(data | uncertain).plane_doubt or "")
+    assert any("on the shear plane cannot be judged" in text for text in sheared(data | uncertain).remarks)
+    certain = uncertain | {"plane_tau_kPa": data["tau_kPa"]}
+    assert sheared(data | certain).plane_doubt is None and sheared(data | certain).doubt is None
+
+
 def test_dilatancy_of_a_peak_at_the_end_is_held() -> None:
     """The lid's rise fades away, with scatter: its angle is known to a degree, that of the polynomial's end is not."""
     found, ends = [], []

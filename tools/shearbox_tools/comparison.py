@@ -142,7 +142,7 @@ def _in_order(specimens: Sequence[Results], stresses: Sequence[float]) -> list[R
 def _strength(ensemble: Ensemble, by: str) -> tuple[Mean | None, Mean | None]:
     """phi and c; also of one specimen, whose line is made as those of an ensemble are."""
     doubts = any(run.doubts for run in ensemble.specimens)
-    if doubts or len(ensemble.shears) < 2 or (by == "plane" and not ensemble.knows_plane):
+    if doubts or len(ensemble.shears) < 2 or (by == "plane" and not ensemble.judges_plane):
         return None, None
     sigma, tau = ensemble.peaks(by)
     if not ensemble.independent:

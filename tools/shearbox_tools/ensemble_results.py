@@ -106,12 +106,12 @@ class Ensemble:
     @cached_property
     def plane_strength(self) -> EnsembleStrength | None:
         """By the stresses on the shear plane, where these are known: by the peaks of their polynomials."""
-        return self._strength("plane") if self.knows_plane else None
+        return self._strength("plane") if self.judges_plane else None
 
     @property
-    def knows_plane(self) -> bool:
-        """Whether the stresses on the shear plane are known of all specimens."""
-        return all(specimen.knows_plane for specimen in self.specimens)
+    def judges_plane(self) -> bool:
+        """Whether the stresses on the shear plane are known of all specimens, and all peaks of them can be judged."""
+        return all(specimen.judges_plane for specimen in self.specimens)
 
     def peaks(self, by: str) -> tuple[np.ndarray, np.ndarray]:
         """sigma and tau (kPa) of the peaks by one of PEAKS: of shared packings (specimens, stresses), at those that all

@@ -68,11 +68,16 @@ class Results:
         """Whether the stresses on the shear plane are known at all stresses of the lid."""
         return all(shear.plane for shear in self.shears)
 
+    @property
+    def judges_plane(self) -> bool:
+        """Whether all their peaks can be judged, too."""
+        return self.knows_plane and not any(shear.plane_doubt for shear in self.shears)
+
     @cached_property
     def plane_line(self) -> Line | None:
-        """That by the stresses on the shear plane, where these are known."""
+        """That by the stresses on the shear plane, where these are known and their peaks can be judged."""
         planes = [shear.plane for shear in self.shears if shear.plane]
-        if not self.knows_plane or len(planes) < 2:
+        if not self.judges_plane or len(planes) < 2:
             return None
         return line_on_plane(planes)
 

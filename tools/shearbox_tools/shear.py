@@ -63,18 +63,21 @@ class Shear:
     @cached_property
     def doubt(self) -> str | None:
         """Why the peak cannot be taken for the strength, if so."""
-        if not self.complete:
-            return f"sheared to {self.reached:.2f} mm only"
-        percent = 100 * self.peak.value_error / max(self.peak.value, sys.float_info.min)
+        return self._doubt_of(self.peak) if self.complete else f"sheared to {self.reached:.2f} mm only"
+
+    @cached_property
+    def plane_doubt(self) -> str | None:
+        """Why that on the shear plane, where it is known, cannot, though that of the lower half can."""
+        return self._doubt_of(self.plane.peak) if self.plane and not self.doubt else None
+
+    def _doubt_of(self, peak: Peak) -> str | None:
+        percent = 100 * peak.value_error / max(peak.value, sys.float_info.min)
         if percent > LARGEST_ERROR_PERCENT:
-            return (
-                f"τ = {self.peak.value:.0f} ± {self.peak.value_error:.0f} kPa is too uncertain "
-                f"(error ≤ {LARGEST_ERROR_PERCENT} %)"
-            )
+            return f"τ = {peak.value:.0f} ± {peak.value_error:.0f} kPa is too uncertain (error ≤ {LARGEST_ERROR_PERCENT} %)"
         travel = 100 * self.reached / self.width
-        least = LEAST_TRAVEL_WITHOUT_PEAK_PERCENT if self.peak.at_boundary else LEAST_TRAVEL_PERCENT
+        least = LEAST_TRAVEL_WITHOUT_PEAK_PERCENT if peak.at_boundary else LEAST_TRAVEL_PERCENT
         if travel < least:
-            without = " without a peak" if self.peak.at_boundary else ""
+            without = " without a peak" if peak.at_boundary else ""
             return f"sheared by {told_apart(travel, least, 1)} % of the width{without} (≥ {least} %)"
         return None
 
@@ -93,6 +96,8 @@ class Shear:
         remarks = []
         if self.doubt:
             remarks.append(self.doubt if not self.complete else f"the peak cannot be judged: {self.doubt}")
+        if self.plane_doubt:
+            remarks.append(f"the peak on the shear plane cannot be judged: {self.plane_doubt}")
         if self.peak.at_boundary:
             remarks.append("τ has no peak within the travel; its greatest value is taken")
         if self.plane and self.plane.peak.at_boundary:
