@@ -6,7 +6,7 @@
 #        2 % that the time step costs.
 # Seen:  so it is for spheres, and for discs with the linear law. Discs with DEM_D_Hertz_viscous_Coulomb2D part with 0.22 where 0.2
 #        was asked, with 0.53 for 0.5. The spring of that law is linear in a plane, as theory has it, but its dashpot seems to be
-#        the one for a Hertzian spring: with sqrt(5/6) of the dashpot of a linear spring one expects 0.24 and 0.53. No word of it.
+#        the one for a Hertzian spring: with sqrt(5/6) of the dashpot of a linear spring one expects 0.24 and 0.53. No warning.
 # For us: compare with Kratos by DEM_D_Linear_viscous_Coulomb2D, which gives what is asked.
 set -euo pipefail
 
