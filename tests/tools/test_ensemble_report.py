@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 import synthetic
 from shearbox_tools.ensemble_results import INDEPENDENT, SHARED, Ensemble
+from shearbox_tools.ensemble_summary import summarise_all
 from shearbox_tools.errors import ShearboxError
 from shearbox_tools.grouping import put_together, what_differs, what_is_set
 from shearbox_tools.mean_curve import average
@@ -343,6 +344,15 @@ def test_means_over_stresses_are_of_those_that_all_have(runs):
     ), "each stress has a packing of its own"
     none = [replace(one, shears=one.shears[:1]), replace(two, shears=two.shears[1:])]
     assert Ensemble([*none, three]).over_specimens(lambda shear: shear.sigma) is None
+
+
+def test_a_line_of_peaks_that_are_in_doubt_is_not_shown(runs):
+    """In the table of specimens, as it is not in the report on that one."""
+    one, two, three = runs
+    short = replace(one, shears=[replace(one.shears[0], complete=False), *one.shears[1:]])
+    summary = summarise_all(one.folder.parent, [Ensemble([short, two, three])], [], ["curves.csv"])
+    first, second, _ = summary["ensembles"][0]["specimens"]
+    assert short.line and first["phi_deg"] is None and second["phi_deg"] > 0
 
 
 def test_models_of_a_name_are_told_apart_by_their_variables(runs):

@@ -92,7 +92,7 @@ def _specimen(folder: Path, run: Results) -> dict[str, Any]:
         "folder": _from(folder, run.folder),
         "seed": run.identity["seed"],
         "tau_peak_kPa": peaks,
-        "phi_deg": run.line.phi_deg if run.line else None,
+        "phi_deg": None if run.line is None or run.doubts else run.line.phi_deg,
         "report": _from(folder, page) if own else None,
     }
 
