@@ -37,33 +37,37 @@ void LineFeet::take_over(cdem::DiscPairs &pairs) {
 // few lie so close there that they may meet, so the work grows with the number of pieces, not with its square.
 void LineFeet::find_joints() {
   struct Piece {
-    double place, half;
+    double place;
+    cdem::WallLine line;
     int row;
   };
   std::vector<Piece> pieces;
   double longest = 0;
   for (int row = 0; row < rows.rows_of(atom->nlocal + atom->nghost); row++)
     if (rows.is_line(row)) {
-      pieces.push_back({(rows[row].x + rows[row].y) * M_SQRT1_2, rows.line(row).half, row});
-      longest = std::max(longest, pieces.back().half);
+      pieces.push_back({(rows[row].x + rows[row].y) * M_SQRT1_2, rows.line(row), row});
+      longest = std::max(longest, pieces.back().line.half);
     }
   std::sort(pieces.begin(), pieces.end(), [](const Piece &a, const Piece &b) { return a.place < b.place; });
 
   beside.clear();
   const double far = neighbor->skin; // no further do two rows move towards each other until LAMMPS's next list
   for (auto p = pieces.begin(); p != pieces.end(); ++p)
-    for (auto q = p + 1; q != pieces.end() && q->place - p->place < p->half + longest + M_SQRT2 * far; ++q)
-      if (meets(q->row, p->row, p->half, far) || meets(q->row, p->row, -p->half, far)) {
+    for (auto q = p + 1; q != pieces.end() && q->place - p->place < p->line.half + longest + M_SQRT2 * far; ++q)
+      if (ends_at(q->row, point_of(p->row, p->line, p->line.half), far) ||
+          ends_at(q->row, point_of(p->row, p->line, -p->line.half), far)) {
         beside[p->row].push_back(q->row);
         beside[q->row].push_back(p->row);
       }
 }
 
-bool LineFeet::meets(int row, int piece, double along, double tolerance) const {
-  const auto [vx, vy, unused] = rows.line(piece);
+GrainRows::Vector LineFeet::point_of(int row, const cdem::WallLine &line, double along) const {
+  return {rows[row].x + along * line.ux, rows[row].y + along * line.uy};
+}
+
+bool LineFeet::ends_at(int row, GrainRows::Vector place, double tolerance) const {
   const auto [ux, uy, half] = rows.line(row);
-  const double dx = rows[piece].x + along * vx - rows[row].x;
-  const double dy = rows[piece].y + along * vy - rows[row].y;
+  const double dx = place.x - rows[row].x, dy = place.y - rows[row].y;
   return std::fabs(std::fabs(dx * ux + dy * uy) - half) < tolerance && std::fabs(dx * uy - dy * ux) < tolerance;
 }
 
@@ -118,8 +122,9 @@ bool LineFeet::acts(const Foot &f, double along) const {
     return true;
   const cdem::Disc<double> &disc = rows[f.disc];
   const double here = cdem::square_distance(disc, rows[f.piece], f.line);
+  const GrainRows::Vector end = point_of(f.piece, f.line, std::copysign(f.line.half, along));
   return std::none_of(f.beside->begin(), f.beside->end(), [&](int other) {
-    if (!meets(other, f.piece, std::copysign(f.line.half, along), TOLERANCE * f.line.half))
+    if (!ends_at(other, end, TOLERANCE * f.line.half))
       return false;
     const double there = cdem::square_distance(disc, rows[other], rows.line(other));
     return here != there ? there < here : atom->tag[rows.grain(other)] < atom->tag[rows.grain(f.piece)];

@@ -47,8 +47,10 @@ private:
   };
   static constexpr double ELSEWHERE = 0.5 * cdem::TOUCHING; // N; no contact of a smooth wall remembers such a spring
 
-  // Whether the piece of row `row` has one of its ends within so far of that end of another that is at `along` (m).
-  bool meets(int row, int piece, double along, double tolerance) const;
+  // The point of a piece's axis that is so far along it from its centre (m).
+  GrainRows::Vector point_of(int row, const cdem::WallLine &, double along) const;
+  // Whether the piece of this row has one of its ends within so far of a place (m).
+  bool ends_at(int row, GrainRows::Vector place, double tolerance) const;
   bool acts(const Foot &, double along) const;
   double overlap_before(const cdem::DiscPairs &, int k, double dt) const;
 
