@@ -128,6 +128,7 @@ def _read(folder: Path, model: str | None, speed: float | None) -> Test:
         raise InputError(f"{folder}: {_no_log(folder)} tells the speed of the lower half: give --speed, in mm/s")
     travel = 1000 * float(said["lower"][2]) if "lower" in said else float(data["displacement_mm"][-1])
     sigma = float(f"{float(said['lid'][0]) / 1000:.6g}" if "lid" in said else f"{np.mean(data['sigma_kPa']):.3g}")
+    packed = _packed_in(folder)
     bed = _row(folder / CONSOLIDATED_TABLE)
     identity = {
         "model": described.name,
@@ -135,7 +136,7 @@ def _read(folder: Path, model: str | None, speed: float | None) -> Test:
         SPEED: float(f"{pace:.6g}"),
         "travel_mm": float(f"{travel:.6g}"),
         "law": said.get("law", (UNKNOWN,))[0],
-        "parameters": _parameters(said, _commands(_packed_in(folder), PACK)),
+        "parameters": _parameters(said, _commands(packed, PACK)),
     }
     rows = full_speed(data)
     if rows.stop - rows.start < FEWEST_ROWS:
@@ -143,7 +144,9 @@ def _read(folder: Path, model: str | None, speed: float | None) -> Test:
     problems: list[str] = []
     lost = lost_grains(folder, identity, problems)
     shear = analyse(sigma, folder, data, rows, _is_complete(data, travel), identity, bed or {}, lost)
-    return Test(folder, identity, described.path, shear, _packing(folder), bed, problems, _sources(folder, said))
+    return Test(
+        folder, identity, described.path, shear, _row(packed / PACKED_TABLE), bed, problems, _sources(folder, said)
+    )
 
 
 def _model(folder: Path, said: Said, model: str | None) -> Model:
@@ -177,13 +180,8 @@ def _is_complete(data: Columns, travel: float) -> bool:
     return bool(data["displacement_mm"][-1] >= travel * (1 - 2 / len(data["step"])))
 
 
-def _packing(folder: Path) -> dict[str, float] | None:
-    """The table beside the restart file that was consolidated, or in the folder."""
-    return _row(_packed_in(folder) / PACKED_TABLE)
-
-
 def _packed_in(folder: Path) -> Path:
-    """Where the restart file was that was consolidated."""
+    """Where the restart file was that was consolidated, and table and log of the packing beside it; else the folder itself."""
     said = _commands(folder, CONSOLIDATE)
     return (folder / said["packed"][0]).parent if "packed" in said else folder
 
