@@ -26,7 +26,7 @@ from shearbox_tools.errors import InputError, ShearboxError
 from shearbox_tools.polynomial import Fit
 from shearbox_tools.reporting import report_on
 from shearbox_tools.results import Results, read_results
-from shearbox_tools.run import carry_out, opened, prepare, whole
+from shearbox_tools.run import carry_out, forecasts_of, opened, prepare, whole
 from shearbox_tools.shear import Shear
 from shearbox_tools.specimens import find_runs
 from shearbox_tools.tables import Tables
@@ -165,7 +165,7 @@ def run(
         raise InputError("dry-run: this is for the command line alone")
     folder, planned, program = prepare(given, asked)
     with opened(folder, planned) as locks:
-        teller = _Teller(whole(planned), progress or (lambda share, text: None))
+        teller = _Teller(whole(planned, forecasts_of(planned, program)), progress or (lambda share, text: None))
         problems = carry_out(planned, program, jobs, locks, Console(quiet=True), teller)
     if problems:
         raise ShearboxError("\n".join(problems))

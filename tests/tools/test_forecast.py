@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 import synthetic
 
-from shearbox_tools.forecast import Forecast, time_step, total
+from shearbox_tools.forecast import Forecast, memory_of_all, time_step, total
 from shearbox_tools.models import find_model
 from shearbox_tools.phases import SHEAR, Phase, packing, shearing, steps_between_frames
 from shearbox_tools.readers import BED
@@ -73,6 +73,18 @@ def test_time_goes_with_grains_and_jobs(tmp_path):
     assert two < one < 2 * two < large.seconds_with(2), "nothing runs beside the packing"
     assert seconds(total([small], 1)) == pytest.approx(one, abs=0.5)
     assert seconds(total([small] * 8, 2)) == pytest.approx(4 * one, rel=0.05), "but that of another specimen"
+
+
+def test_memory_goes_with_discs_ranks_and_tests_at_a_time(tmp_path):
+    """While they were sheared, with frames, two ranks of a million discs had 1305 MB each, one of 9000 discs 72 MB."""
+    large, middle, small = (
+        replace(request(f"TypeD_100x30_2-4_1-circle_{count}"), stresses=(200.0,)) for count in (1_000_000, 9000, 350)
+    )
+    for asked, ranks, megabytes in (large, 2, 2610), (middle, 1, 72):
+        assert Forecast(tmp_path, asked, ranks).memory == pytest.approx(1e6 * megabytes, rel=0.1)
+    one = Forecast(tmp_path, large, 2)
+    assert memory_of_all([one], 8) == one.memory, "one test can't be shared by jobs"
+    assert memory_of_all([one, Forecast(tmp_path, small), one], 2) == 2 * one.memory
 
 
 def test_ranks_share_the_grains(tmp_path):

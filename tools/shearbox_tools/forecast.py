@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a run will do, about how long that takes, and how much it writes.
+"""What a run will do, about how long that takes, how much it writes, and the memory that it needs.
 
 All times are estimates: steps from the stability limit of the smallest disc and from what packing has taken in boxes up to
 80 cm high (tests/validation/packing); the time of a step from the log of the packing if that is done, else as measured on
@@ -21,6 +21,7 @@ from .restarts import step_of
 
 SECONDS = {PACK: 45e-9, CONSOLIDATE: 25e-9, SHEAR: 25e-9}  # a disc and step; loose grains need new lists all the time
 SECONDS_PER_DISC_AND_FRAME = 18e-6
+BYTES_PER_DISC, BYTES_PER_RANK = 2.6e3, 45e6  # of memory, half of the former for frames (tests/validation/ranks)
 # for each disc of a grain; a high box takes waves longer to cross, and to come to rest
 STEPS_OF_PACKING, STEPS_PER_DIAMETER, STEPS_OF_CONSOLIDATION = 20_000, 250, 10_000
 
@@ -73,6 +74,16 @@ class Forecast:
     def bytes(self) -> int:
         """That will be written."""
         return disk_need(self._request, self._folder)
+
+    @property
+    def tests(self) -> int:
+        """One for each stress."""
+        return len(self._request.stresses)
+
+    @property
+    def memory(self) -> float:
+        """Bytes that the engine needs, on all ranks."""
+        return self._discs * BYTES_PER_DISC + self._ranks * BYTES_PER_RANK
 
     @property
     def seconds(self) -> float:
@@ -131,12 +142,19 @@ def seconds_of_all(forecasts: Sequence[Forecast], jobs: int) -> float:
     return max(sum(f.seconds for f in forecasts) / jobs, *(f.seconds_with(jobs) for f in forecasts), 0.0)
 
 
+def memory_of_all(forecasts: Sequence[Forecast], jobs: int) -> float:
+    """Bytes that so many tests at a time need at most."""
+    tests = sum(forecast.tests for forecast in forecasts)
+    return min(jobs, tests) * max(forecast.memory for forecast in forecasts)
+
+
 def total(forecasts: Sequence[Forecast], jobs: int) -> str:
-    """A line of the time that is left for all of them, what it goes by, and the disk that is needed."""
+    """A line of the time that is left for all of them, what it goes by, and the memory and disk that are needed."""
     seconds = seconds_of_all(forecasts, jobs)
     paces = sorted({f"{1e9 * f.pace:.0f}" for f in forecasts}, key=float)
     return (
-        f"about {duration(seconds)} and {sum(f.bytes for f in forecasts) / 1e6:.0f} MB (an estimate from "
+        f"about {duration(seconds)}, {memory_of_all(forecasts, jobs) / 1e6:.0f} MB of memory, "
+        f"{sum(f.bytes for f in forecasts) / 1e6:.0f} MB of disk (an estimate from "
         f"{' to '.join(dict.fromkeys([paces[0], paces[-1]]))} ns a disc and step of shear, good to a factor of 2)"
     )
 

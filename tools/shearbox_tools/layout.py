@@ -7,7 +7,7 @@ from functools import cached_property
 
 from .cluster import Cluster
 from .errors import InputError
-from .forecast import Forecast, seconds_of_all
+from .forecast import Forecast, memory_of_all, seconds_of_all
 from .phases import SHEAR, rows_of_shear
 from .specimens import Run
 
@@ -56,6 +56,11 @@ class Layout:
     def seconds(self) -> float:
         """Estimate of the longest element."""
         return max(seconds_of_all(some, self.at_a_time) for some in self.forecasts)
+
+    @property
+    def memory(self) -> float:
+        """Bytes that the engine needs in an element."""
+        return max(memory_of_all(some, self.at_a_time) for some in self.forecasts)
 
     @cached_property
     def notice(self) -> int:

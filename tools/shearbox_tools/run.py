@@ -21,7 +21,7 @@ from .display import Display, Whole, duration, make_display
 from .engine import Engine, free_bytes
 from .errors import InputError, ShearboxError
 from .files import RECORD
-from .forecast import Forecast, total
+from .forecast import Forecast, memory_of_all, total
 from .hosts import HOSTS, check_host, default_program
 from .lock import locked
 from .models import PARAMETERS, find_model, read_variables
@@ -57,11 +57,12 @@ def run(options: argparse.Namespace, asked: list[dict[str, Any]]) -> None:
     out, runs, engine = prepare(options, asked)
     console = Console()
     _note_cores(min(options.jobs, tests_of(runs)), engine.ranks, console)
-    forecasts = [Forecast(one.folder, one.request, engine.ranks) for one in runs]
+    forecasts = forecasts_of(runs, engine)
     if options.dry_run:
         _say(console, f"{forecast_text(runs, forecasts)}\nin all {total(forecasts, options.jobs)}, into {out}")
         return
     check_disk(out, forecasts)
+    _check_memory(forecasts, options.jobs)
     with opened(out, runs) as locks:
         problems = carry_out(runs, engine, options.jobs, locks, console)
         if any(any(_sheared(one)) for one in runs):
@@ -156,9 +157,9 @@ def carry_out(
 
     Asked to end by SIGUSR1, it does so with restart files of now, and raises KeyboardInterrupt.
     """
-    forecasts = [Forecast(one.folder, one.request, engine.ranks) for one in runs]
+    forecasts = forecasts_of(runs, engine)
     _say(console, f"left: {total(forecasts, jobs)}")
-    display = display or make_display(console, whole(runs))
+    display = display or make_display(console, whole(runs, forecasts))
     campaign = Campaign(runs, engine, display, locks)
     listens = threading.current_thread() is threading.main_thread()  # others cannot be sent signals
     before = signal.signal(signal.SIGUSR1, lambda *_: campaign.end()) if listens else None
@@ -255,6 +256,11 @@ def _check_folders(out: Path, runs: list[Run], given: dict[str, Any]) -> None:
         check_folder(one.folder, one.request)
 
 
+def forecasts_of(runs: list[Run], engine: Engine) -> list[Forecast]:
+    """What is left to do of each, on the ranks that the engine has."""
+    return [Forecast(one.folder, one.request, engine.ranks) for one in runs]
+
+
 def forecast_text(runs: list[Run], forecasts: list[Forecast]) -> str:
     """Each phase of a single run; of several, a line for each, under that of their model and settings."""
     if len(runs) == 1:
@@ -269,9 +275,8 @@ def forecast_text(runs: list[Run], forecasts: list[Forecast]) -> str:
     return "\n".join(line for head, lines in under.items() for line in (head, *lines))
 
 
-def whole(runs: list[Run]) -> Whole:
+def whole(runs: list[Run], forecasts: list[Forecast]) -> Whole:
     """All their phases, with what is done of them."""
-    forecasts = [Forecast(one.folder, one.request) for one in runs]
     phases = [
         (one.label(phase), forecast, phase) for one, forecast in zip(runs, forecasts) for phase in forecast.phases
     ]
@@ -313,3 +318,10 @@ def check_disk(folder: Path, forecasts: list[Forecast]) -> None:
     need, free = sum(forecast.bytes for forecast in forecasts) + SPARE_BYTES, free_bytes(folder)
     if free < need:
         raise InputError(f"--out {folder}: about {need / 1e6:.0f} MB will be written, {free / 1e6:.0f} MB are free")
+
+
+def _check_memory(forecasts: list[Forecast], jobs: int) -> None:
+    """Refuse what this machine could not hold: its processes would be killed after hours."""
+    need, there = memory_of_all(forecasts, jobs), os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    if there < need:
+        raise InputError(f"about {need / 1e9:.0f} GB of memory are needed, this machine has {there / 1e9:.0f} GB")

@@ -106,7 +106,8 @@ def _in_words(layout: Layout) -> str:
     runs = max(map(len, layout.elements))
     return (
         f"{count} job{'s' * (count > 1)} of {runs} specimen{'s' * (runs > 1)}, {layout.at_a_time} tests at a time on "
-        f"{layout.cores} cores: about {duration(layout.seconds)} each, at most {duration(60 * layout.minutes)}"
+        f"{layout.cores} cores: about {duration(layout.seconds)} each, at most {duration(60 * layout.minutes)}; "
+        f"{layout.memory / 1e6:.0f} MB of memory"
     )
 
 
