@@ -30,6 +30,11 @@ public:
   template <class Visit> void share_line(Point from, Point to, Visit visit) const {
     if (xs.misses(from.x, to.x) || ys.misses(from.y, to.y))
       return;
+    if (const int i = xs.index(from.x), j = ys.index(from.y);
+        xs.has(i) && ys.has(j) && i == xs.index(to.x) && j == ys.index(to.y)) {
+      visit(j * xs.n + i, 1.0);
+      return;
+    }
     std::vector<double> cuts{0, 1};
     xs.cut(from.x, to.x, cuts);
     ys.cut(from.y, to.y, cuts);

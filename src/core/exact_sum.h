@@ -28,9 +28,9 @@ public:
       ++bad;
       return;
     }
-    const double coarse = std::nearbyint(x * coarse_scale);
-    high += static_cast<std::int64_t>(coarse);
-    low += static_cast<std::int64_t>(std::nearbyint((x - coarse / coarse_scale) * fine_scale));
+    const auto coarse = static_cast<std::int64_t>(x * coarse_scale);
+    high += coarse;
+    low += nearest((x - static_cast<double>(coarse) / coarse_scale) * fine_scale);
     carry();
   }
 
@@ -48,6 +48,10 @@ public:
 private:
   static constexpr double max_term = 0x1p50, coarse_scale = 0x1p10, fine_scale = 0x1p60;
   static constexpr std::int64_t unit = std::int64_t{1} << 50; // low units in a high one
+
+  // Of |x| < 2^51, half to even: the place of the last digit of x + 1.5 2^52 is that of 1. std::nearbyint is a call of
+  // a function wherever the instruction for it cannot be taken for granted.
+  static std::int64_t nearest(double x) { return static_cast<std::int64_t>((x + 0x1.8p52) - 0x1.8p52); }
 
   // Brings low into [-unit/2, unit/2): it never overflows, and equal values have equal words.
   void carry() {

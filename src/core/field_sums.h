@@ -55,7 +55,8 @@ public:
     Point from, to, force, normal;
     double fn, ft; // of the force, along the normal and the normal turned by +90 degrees
   };
-  // The largest values that are to come, for the resolution of the sums (m, kg, m/s, rad/s, N).
+  // The largest values that are to come, of speed and force along either axis, for the resolution of the sums (m, kg,
+  // m/s, rad/s, N).
   struct Largest {
     double radius, mass, speed, spin, force;
   };

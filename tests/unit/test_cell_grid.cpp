@@ -88,6 +88,8 @@ TEST(CellGrid, SharesOfALine) {
   EXPECT_EQ(seen, (std::map<int, double>{{0, 0.5}, {5, 0.5}}));
   share({1, 0.25}, {1, 0.75}); // along an edge: once
   EXPECT_EQ(seen, (std::map<int, double>{{1, 1.0}}));
+  share({1.25, 0.75}, {1.75, 0.25}); // within a cell
+  EXPECT_EQ(seen, (std::map<int, double>{{1, 1.0}}));
   share({5, 5}, {6, 6});
   EXPECT_TRUE(seen.empty());
 }

@@ -65,7 +65,7 @@ TEST(ExactSum, CancelsExactly) { EXPECT_EQ(sum({1e12, 1e-9, -1e12}), sum({1e-9})
 
 TEST(ExactSum, LowWordNeverRunsOver) {
   ExactSum s;
-  const double x = 0x1p-11 - 0x1p-60; // the largest number that goes to the low word alone
+  const double x = 0x1p-10 - 0x1p-60; // the largest number that goes to the low word alone
   const int n = 1 << 20;
   for (int i = 0; i < n; ++i)
     s.add(x);

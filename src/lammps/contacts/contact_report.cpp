@@ -19,7 +19,7 @@ std::vector<ContactReport::Contact> ContactReport::contacts() const {
 ContactReport::Contact ContactReport::contact(int k) const {
   const GrainRows &rows = list.rows;
   const int p = list.pairs.a(k), q = list.pairs.b(k);
-  const double dx = rows[p].x - rows[q].x, dy = rows[p].y - rows[q].y, distance = std::hypot(dx, dy);
+  const double dx = rows[p].x - rows[q].x, dy = rows[p].y - rows[q].y, distance = std::sqrt(dx * dx + dy * dy);
   const auto [fx, fy] = list.force(k);
 
   Contact c;

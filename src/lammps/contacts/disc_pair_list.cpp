@@ -434,7 +434,8 @@ cdem::Resistance DiscPairList::resistance(int k) const {
 
 double DiscPairList::overlap(int k) const {
   const auto &a = rows[pairs.a(k)], &b = rows[pairs.b(k)];
-  return pairs.constants(k).radius_sum - std::hypot(a.x - b.x, a.y - b.y);
+  const double dx = a.x - b.x, dy = a.y - b.y;
+  return pairs.constants(k).radius_sum - std::sqrt(dx * dx + dy * dy);
 }
 
 // A pair across a border is on two ranks (or twice on one, if periodic): the owner of disc a counts it.

@@ -109,12 +109,12 @@ cdem::FieldSums::Largest CellFields::largest(const std::vector<Contact> &contact
       continue;
     raise(0, atom->radius[i]);
     raise(1, atom->rmass[i]);
-    raise(2, std::hypot(atom->v[i][0], atom->v[i][1]));
+    raise(2, std::max(std::fabs(atom->v[i][0]), std::fabs(atom->v[i][1])));
     raise(3, std::fabs(atom->omega[i][2]));
   }
   for (const Contact &c : contacts)
     if (counts(c.grain_a) || counts(c.grain_b))
-      raise(4, std::hypot(c.fn, c.ft));
+      raise(4, std::max(std::fabs(c.fn), std::fabs(c.ft)));
   MPI_Allreduce(mine, all, 5, MPI_DOUBLE, MPI_MAX, world);
   return {all[0], all[1], all[2], all[3], all[4]};
 }
