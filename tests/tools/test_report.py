@@ -18,7 +18,7 @@ from shearbox_tools.page import minus, number
 from shearbox_tools.report import report
 from shearbox_tools.request import Request
 from shearbox_tools.results import read_results
-from shearbox_tools.specimen import Film, count_lost
+from shearbox_tools.specimen import Film, count_lost, stress_tilt
 from shearbox_tools.style import PAPER_LOOKS, looks
 from shearbox_tools.summary import summarise
 
@@ -396,6 +396,18 @@ def test_a_grain_outside_the_box_is_lost(folder, place, lost):
     lines[max(i for i, line in enumerate(lines) if "NUMBER OF" in line) + 1] = str(len(lines) - last)
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
     assert count_lost(folder / "100", 350, 0.1, 0.05) == 1, "a grain that is gone"
+
+
+@pytest.mark.parametrize("tilt, told", [(0.5, True), (-0.5, True), (0.2, False)])
+def test_a_normal_stress_that_is_not_even_is_told(folder, tilt, told):
+    """Two layers of four cells, a straight line along x: 1 - tilt to 1 + tilt times the mean from end to end of the box."""
+    rows = [(0.0125 + 0.025 * i, 0.025 + 0.05 * j) for j in range(2) for i in range(4)]
+    cells = [f"{x} {y} 0.8 900 {1000 * (1 + tilt * (x - 0.05) / 0.05) + 10 * (y - 0.05)} 0" for x, y in rows]
+    head = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n8\nITEM: ENTRIES x y solid stress_xx stress_yy stress_xy\n"
+    (folder / "100" / "cells.dump").write_text(head + "\n".join(cells) + "\n", encoding="utf-8")
+    assert stress_tilt(folder / "100") == pytest.approx(tilt)
+    remarks = " ".join(read_results(folder).shears[0].remarks)
+    assert (f"goes from {1 - tilt:.2f} of its mean at the left end of the box to {1 + tilt:.2f}" in remarks) == told
 
 
 def test_the_lid_of_a_thin_specimen(tmp_path):

@@ -20,7 +20,7 @@ def sheared(data: Columns, complete: bool = True, speed: float = 2, bed: dict[st
     """At 200 kPa; speed in mm/s."""
     identity: dict[str, Any] = {"speed_mm_s": speed, "model width": 0.1, "parameters": {"density": "2650"}}
     bed = BED if bed is None else bed
-    return analyse(200, Path("."), data, full_speed(data), complete, identity, bed, 0)
+    return analyse(200, Path("."), data, full_speed(data), complete, identity, bed, 0, 0.0)
 
 
 def noise(rows: int, deviation: float, seed: int = 1) -> np.ndarray:

@@ -23,7 +23,7 @@ from .numerals import numeral
 from .phases import CONSOLIDATE, PACK, SHEAR
 from .polynomial import FEWEST_ROWS
 from .readers import Columns, read_row, read_shear
-from .results import Results, lost_grains
+from .results import Results, told_by_frames
 from .shear import Shear, analyse
 from .specimen import missing_frames
 
@@ -142,8 +142,8 @@ def _read(folder: Path, model: str | None, speed: float | None) -> Test:
     if rows.stop - rows.start < FEWEST_ROWS:
         raise ShearboxError(f"{folder}: {rows.stop - rows.start} rows at full speed are too few to fit a curve")
     problems: list[str] = []
-    lost = lost_grains(folder, identity, problems)
-    shear = analyse(sigma, folder, data, rows, _is_complete(data, travel), identity, bed or {}, lost)
+    frames = told_by_frames(folder, identity, problems)
+    shear = analyse(sigma, folder, data, rows, _is_complete(data, travel), identity, bed or {}, *frames)
     return Test(
         folder, identity, described.path, shear, _row(packed / PACKED_TABLE), bed, problems, _sources(folder, said)
     )

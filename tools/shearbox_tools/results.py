@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What is in a folder of results, read and analysed; nothing is written here."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from .ensemble import Estimate, as_angle, mean_of
 from .errors import ShearboxError
 from .features import proportional
-from .files import CONSOLIDATED_TABLE, GRAINS_DUMP, PACKED, PACKED_TABLE, SHEAR_TABLE, stress_folder
+from .files import CELLS_DUMP, CONSOLIDATED_TABLE, GRAINS_DUMP, PACKED, PACKED_TABLE, SHEAR_TABLE, stress_folder
 from .motion import full_speed
 from .notes import Remark, said_once
 from .peak import Peak
@@ -22,9 +23,11 @@ from .presets import LAMMPS
 from .readers import read_row, read_shear
 from .request import read_record
 from .shear import Shear, analyse
-from .specimen import count_lost, missing_frames
+from .specimen import count_lost, missing_frames, stress_tilt
 from .strength import Line, fit_line
 from .verdict import Verdict
+
+Value = TypeVar("Value")
 
 
 @dataclass(frozen=True)
@@ -153,17 +156,23 @@ def _read_shear(
     elif missing:
         without = f"no {', '.join(missing)} and so no picture; without its {SHEAR_TABLE} it would be run again"
         remarks.append((sigma, without))
-    lost = lost_grains(place, identity, problems)
     complete = len(data["step"]) == rows_of_shear()
-    return analyse(sigma, place, data, rows, complete, identity, bed, lost)
+    return analyse(sigma, place, data, rows, complete, identity, bed, *told_by_frames(place, identity, problems))
 
 
-def lost_grains(place: Path, identity: dict[str, Any], problems: list[str]) -> int | None:
-    """Outside the box in the last frame; None if there are no frames, or if these are damaged, which becomes a problem."""
-    if not (place / GRAINS_DUMP).exists():
+def told_by_frames(place: Path, identity: dict[str, Any], problems: list[str]) -> tuple[int | None, float | None]:
+    """Grains outside the box in the last frame, and the tilt of the normal stress in the first; None where there are no frames, or
+    where these are damaged, which becomes a problem."""
+    box = (identity["model ngrains"], identity["model width"], identity["model half_height"])
+    lost = _told(place / GRAINS_DUMP, lambda: count_lost(place, *box), problems)
+    return lost, _told(place / CELLS_DUMP, lambda: stress_tilt(place), problems)
+
+
+def _told(path: Path, read: Callable[[], Value], problems: list[str]) -> Value | None:
+    if not path.exists():
         return None
     try:
-        return count_lost(place, identity["model ngrains"], identity["model width"], identity["model half_height"])
+        return read()
     except ShearboxError as error:
         problems.append(str(error))
         return None

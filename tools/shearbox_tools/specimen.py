@@ -135,3 +135,14 @@ def count_lost(folder: Path, total: int, width: float, half_height: float) -> in
     left = np.where(y > half_height, 0, moved)
     inside = (x > left - radius) & (x < left + width + radius) & (y > -radius) & (y < top + radius)
     return total - int(np.sum(inside & (grains["wall"] == 0)))
+
+
+def stress_tilt(folder: Path) -> float:
+    """How much greater than its mean the normal stress is before shear at the right end of the box, as a share of it, by a straight
+    line through its means over the columns of cells; at the left end it is as much less."""
+    dump = Dump(folder / CELLS_DUMP, CELLS)
+    cells = _grid(dump, dump.steps[0])
+    x, stress = cells["x"][0], cells["stress_yy"].mean(axis=0)
+    if len(x) < 2 or stress.mean() <= 0:
+        return 0.0
+    return float(np.polyfit(2 * x / (x[0] + x[-1]) - 1, stress, 1)[0] / stress.mean())
