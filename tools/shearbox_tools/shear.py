@@ -23,7 +23,7 @@ from .verdict import Verdict, told_apart
 LARGEST_ERROR_PERCENT = 25
 LEAST_TRAVEL_PERCENT = 1  # of the width
 LEAST_TRAVEL_WITHOUT_PEAK_PERCENT = 5
-LARGEST_TILT = 0.3  # of the normal stress; of eleven specimens of boxes up to 30 cm, all below 0.2
+LARGEST_TILT = 0.5  # of the normal stress; in tests of boxes up to 15 cm it is 0.03 to 0.14 (rms), 0.44 at most
 
 
 @dataclass(frozen=True)
