@@ -159,7 +159,7 @@ def test_a_dry_run_tells_of_all(folder):
     """Eight times the disk of one; and two at a time all of the work takes half of it."""
     told = {n: shearbox(folder, "--dry-run", "--seeds", n).stdout for n in ("1", "8")}
     assert not folder.exists()
-    sizes = {n: int(re.search(r"and (\d+) MB", text)[1]) for n, text in told.items()}
+    sizes = {n: int(re.search(r"(\d+) MB of disk", text)[1]) for n, text in told.items()}
     assert sizes["8"] == pytest.approx(8 * sizes["1"], abs=8)
     assert told["8"].count("9 phases") == 8 and told["8"].count("350 grains") == 1
 
