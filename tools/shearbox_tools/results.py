@@ -163,9 +163,12 @@ def _read_shear(
 def told_by_frames(place: Path, identity: dict[str, Any], problems: list[str]) -> tuple[int | None, float | None]:
     """Grains outside the box in the last frame, and the tilt of the normal stress in the first; None where there are no frames, or
     where these are damaged, which becomes a problem."""
-    box = (identity["model ngrains"], identity["model width"], identity["model half_height"])
-    lost = _told(place / GRAINS_DUMP, lambda: count_lost(place, *box), problems)
-    return lost, _told(place / CELLS_DUMP, lambda: stress_tilt(place), problems)
+
+    def lost() -> int:
+        return count_lost(place, identity["model ngrains"], identity["model width"], identity["model half_height"])
+
+    lost_in_last = _told(place / GRAINS_DUMP, lost, problems)
+    return lost_in_last, _told(place / CELLS_DUMP, lambda: stress_tilt(place), problems)
 
 
 def _told(path: Path, read: Callable[[], Value], problems: list[str]) -> Value | None:
