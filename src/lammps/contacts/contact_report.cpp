@@ -31,12 +31,13 @@ ContactReport::Contact ContactReport::contact(int k) const {
   c.disc_b = rows.disc(q);
   c.nx = dx / distance;
   c.ny = dy / distance;
-  const double lever = 0.5 * distance + list.pairs.constants(k).half_difference;
+  const auto &constants = list.pairs.constants(k);
+  const double lever = 0.5 * distance + constants.half_difference;
   c.x = rows[p].x - lever * c.nx;
   c.y = rows[p].y - lever * c.ny;
   c.fn = fx * c.nx + fy * c.ny;
   c.ft = fy * c.nx - fx * c.ny;
-  c.overlap = list.overlap(k);
+  c.overlap = constants.radius_sum - distance;
   c.sliding = !cdem::is_marked(list.pairs.es(k));
   c.mine = list.counts(k);
   c.remembered = list.pairs.remembered(k);
