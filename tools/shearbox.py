@@ -13,6 +13,7 @@ shearbox.Error, with the reason. Needs python3-pandas, and this folder in PYTHON
 """
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +27,7 @@ from shearbox_tools.errors import InputError, ShearboxError
 from shearbox_tools.polynomial import Fit
 from shearbox_tools.reporting import report_on
 from shearbox_tools.results import Results, read_results
-from shearbox_tools.run import carry_out, forecasts_of, opened, prepare, whole
+from shearbox_tools.run import carry_out, opened, prepare
 from shearbox_tools.shear import Shear
 from shearbox_tools.specimens import find_runs
 from shearbox_tools.tables import Tables
@@ -165,8 +166,8 @@ def run(
         raise InputError("dry-run: this is for the command line alone")
     folder, planned, program = prepare(given, asked)
     with opened(folder, planned) as locks:
-        teller = _Teller(whole(planned, forecasts_of(planned, program)), progress or (lambda share, text: None))
-        problems = carry_out(planned, program, jobs, locks, Console(quiet=True), teller)
+        show = partial(_Teller, tell=progress or (lambda share, text: None))
+        problems = carry_out(planned, program, jobs, locks, Console(quiet=True), show)
     if problems:
         raise ShearboxError("\n".join(problems))
     return [Test(one.folder) for one in planned]

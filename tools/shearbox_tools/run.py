@@ -5,7 +5,7 @@ import argparse
 import os
 import signal
 import threading
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from itertools import zip_longest
@@ -57,7 +57,7 @@ def run(options: argparse.Namespace, asked: list[dict[str, Any]]) -> None:
     out, runs, engine = prepare(options, asked)
     console = Console()
     _note_cores(min(options.jobs, tests_of(runs)), engine.ranks, console)
-    forecasts = forecasts_of(runs, engine)
+    forecasts = _forecasts_of(runs, engine)
     if options.dry_run:
         _say(console, f"{forecast_text(runs, forecasts)}\nin all {total(forecasts, options.jobs)}, into {out}")
         return
@@ -150,16 +150,17 @@ def carry_out(
     jobs: int,
     locks: Mapping[Path, int],
     console: Console,
-    display: Display | None = None,
+    show: Callable[[Whole], Display] | None = None,
 ) -> list[str]:
-    """Work through the runs, whose folders are locked and open; what has failed is returned. Progress is shown on the console,
-    unless there is another display.
+    """Work through the runs, whose folders are locked and open; what has failed is returned. Progress of the whole is shown on the
+    console, unless there is another display of it.
 
     Asked to end by SIGUSR1, it does so with restart files of now, and raises KeyboardInterrupt.
     """
-    forecasts = forecasts_of(runs, engine)
+    forecasts = _forecasts_of(runs, engine)
     _say(console, f"left: {total(forecasts, jobs)}")
-    display = display or make_display(console, whole(runs, forecasts))
+    work = _whole(runs, forecasts)
+    display = show(work) if show else make_display(console, work)
     campaign = Campaign(runs, engine, display, locks)
     listens = threading.current_thread() is threading.main_thread()  # others cannot be sent signals
     before = signal.signal(signal.SIGUSR1, lambda *_: campaign.end()) if listens else None
@@ -256,7 +257,7 @@ def _check_folders(out: Path, runs: list[Run], given: dict[str, Any]) -> None:
         check_folder(one.folder, one.request)
 
 
-def forecasts_of(runs: list[Run], engine: Engine) -> list[Forecast]:
+def _forecasts_of(runs: list[Run], engine: Engine) -> list[Forecast]:
     """What is left to do of each, on the ranks that the engine has."""
     return [Forecast(one.folder, one.request, engine.ranks) for one in runs]
 
@@ -275,7 +276,7 @@ def forecast_text(runs: list[Run], forecasts: list[Forecast]) -> str:
     return "\n".join(line for head, lines in under.items() for line in (head, *lines))
 
 
-def whole(runs: list[Run], forecasts: list[Forecast]) -> Whole:
+def _whole(runs: list[Run], forecasts: list[Forecast]) -> Whole:
     """All their phases, with what is done of them."""
     phases = [
         (one.label(phase), forecast, phase) for one, forecast in zip(runs, forecasts) for phase in forecast.phases
