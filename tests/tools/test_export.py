@@ -14,6 +14,8 @@ import synthetic
 
 from shearbox_tools.cli import main
 from shearbox_tools.dumps import CONTACTS, DISCS, GRAINS, Dump
+from shearbox_tools.table_files import write_ovito
+from shearbox_tools.tables import Instant
 
 STEPS = [0, 2000000, 4000000]
 DT = 1e-6
@@ -137,6 +139,42 @@ def test_parquet(folder, tmp_path):
     frame = pandas.read_parquet(place / "contacts_00001.parquet")
     assert all((frame[name] == dumped[name]).all() for name in CONTACTS)
     assert frame["id1"].dtype == "int64"
+
+
+def test_a_disc_keeps_its_id_whatever_the_order_of_rows_in_its_frame(folder, tmp_path):
+    """LAMMPS sorts atoms from time to time; what a disc has moved, by its id, is what a homogeneous shear moves it."""
+    place = tmp_path / "run" / "100"
+    shutil.copytree(folder / "100", place)
+    head, *frames = (place / "discs.dump").read_text().split("ITEM: TIMESTEP\n")
+    *lines, columns = frames[2].partition("ITEM: ATOMS")
+    names, *rows = columns.rstrip().split("\n")
+    frames[2] = "".join([*lines, names, "\n", "\n".join(rows[::-1]), "\n"])
+    (place / "discs.dump").write_text("ITEM: TIMESTEP\n".join([head, *frames]))
+    for form in ("ovito", "csv"):
+        exported(tmp_path / "run", tmp_path, "--to", form, "--frames", "::2")
+    dumps = [tmp_path / "ovito" / "100" / f"discs_0000{k}.dump" for k in (0, 2)]
+    first, last = (Dump(path, ("id", "grain", "x", "y")).frame(step) for path, step in zip(dumps, (0, STEPS[2])))
+    _, before, after = np.intersect1d(first["id"], last["id"], return_indices=True)
+    assert np.array_equal(first["grain"][before], last["grain"][after])
+    shear = 0.008 * (0.5 - first["y"] / 0.1) + 0.004
+    np.testing.assert_allclose(last["x"][after] - first["x"][before], shear[before], atol=1e-8)
+    rows = [table(tmp_path / "csv" / "100" / f"discs_0000{k}.csv")["id"] for k in (0, 2)]
+    assert np.array_equal(*rows)
+
+
+def test_discs_of_a_grain_have_ids_of_their_own(tmp_path):
+    """Of three discs each, the second grain lost: those of the third do not change."""
+    grains, discs = np.repeat([1.0, 3.0], 3), np.tile([0.0, 1.0, 2.0], 2)
+    write_ovito(tmp_path / "a", {"id": grains, "disc": discs, "x": discs, "y": grains}, Instant(0, 0.0, None))
+    assert list(Dump(tmp_path / "a", ("id",)).frame(0)["id"]) == [1, 2, 3, 7, 8, 9]
+
+
+def test_frames_of_an_earlier_export_do_not_stay_among_those_chosen_now(folder, tmp_path):
+    place = exported(folder, tmp_path, "--to", "csv", "--stress", "100") / "csv" / "100"
+    (place / "notes.csv").write_text("a user's own\n")
+    exported(folder, tmp_path, "--to", "csv", "--stress", "100", "--frames", "1")
+    named = {f"{name}_00001.csv" for name in ("grains", "discs", "walls", "contacts", "cells")}
+    assert {path.name for path in place.iterdir()} == {"frames.csv", "notes.csv", *named}
 
 
 @pytest.mark.filterwarnings("ignore")

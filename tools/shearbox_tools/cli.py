@@ -263,8 +263,9 @@ def _add_export(commands: Commands) -> None:
         "export",
         help="write frames for ParaView, OVITO, pandas and others",
         description="Write grains, discs, walls, contacts and cells of the frames of all tests in DIR: a file each and frame, "
-        "and their times in frames.csv. vtk: VTK's XML files, and a series NAME.pvd that ParaView opens; ovito: dumps with an "
-        "id for each disc, and contacts with vectors; csv; parquet. SI units.",
+        "and their times in frames.csv. Those of an earlier export are replaced. vtk: VTK's XML files, and a series NAME.pvd "
+        "that ParaView opens; ovito: dumps with an id for each disc, the same in all frames, and contacts with vectors; csv; "
+        "parquet. SI units.",
     )
     export.add_argument("folder", metavar="DIR", type=_named_folder, help="folder of runs, or of tests by hand")
     export.add_argument("--to", choices=FORMATS, required=True, help="format")

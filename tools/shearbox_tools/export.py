@@ -10,7 +10,7 @@ from .files import write_text
 from .readers import Columns
 from .selection import choose, find_tests
 from .table_files import write_csv, write_ovito, write_parquet
-from .tables import GRID, Instant, Tables
+from .tables import GRID, NAMES, Instant, Tables
 
 NEEDS = {  # modules, and where they are from; pyarrow 18 wants a newer NumPy than Debian 12 has
     "vtk": {"vtkmodules": "apt-get install python3-vtk9"},
@@ -23,7 +23,7 @@ def export(folder: Path, form: str, out: Path | None, stresses: Sequence[float],
     """Write the frames of all tests in a folder, or of those of the stresses (kPa); the folders written are returned.
 
     frames: see `selection.choose`. What cannot be done is refused before anything is written. A file is whole or not there, and the
-    series is written last; written again, files are replaced.
+    series is written last; written again, files are replaced, and those of frames that are not chosen any more are removed.
     """
     _require_modules(form)
     opened = [(place, Tables(place)) for place in find_tests(folder, stresses)]
@@ -53,11 +53,16 @@ def _write_test(target: Path, form: str, tables: Tables, steps: list[int]) -> No
     number = {step: k for k, step in enumerate(tables.steps)}
     instants = [tables.instant(step) for step in steps]
     names: list[str] = []
+    earlier = _frames_in(target, form)
     for instant in instants:
         frame = tables.frame(instant.step)
         names = list(frame)
         for name, table in frame.items():
-            _write(target / _file(form, name, number[instant.step]), form, name, table, instant)
+            file = target / _file(form, name, number[instant.step])
+            _write(file, form, name, table, instant)
+            earlier.discard(file)
+    for file in earlier:
+        file.unlink()
     if form == "vtk":
         from .vtk_files import write_series
 
@@ -77,6 +82,11 @@ def _row(number: int, instant: Instant) -> str:
 def _file(form: str, name: str, number: int) -> str:
     ending = {"csv": "csv", "parquet": "parquet", "ovito": "dump", "vtk": "vtr" if name == GRID else "vtp"}[form]
     return f"{name}_{number:05}.{ending}"
+
+
+def _frames_in(target: Path, form: str) -> set[Path]:
+    """Of all frames that were written there before."""
+    return {path for name in NAMES for path in target.glob(_file(form, name, 0).replace("0" * 5, "[0-9]" * 5))}
 
 
 def _write(path: Path, form: str, name: str, table: Columns, instant: Instant) -> None:

@@ -28,12 +28,12 @@ def write_parquet(path: Path, table: Columns) -> None:
 def write_ovito(path: Path, table: Columns, instant: Instant) -> None:
     """A dump of one frame in LAMMPS's format, in which every row is a particle with an id of its own.
 
-    Discs keep the id of their grain as `grain`. Contacts are particles at the contact point; OVITO takes fx and fy for the
-    vector Force.
+    Grains and discs have the same id in all frames; discs keep that of their grain as `grain`. Contacts are particles at the
+    contact point, numbered anew in each frame; OVITO takes fx and fy for the vector Force.
     """
     count = len(table["x"])
     columns = {"grain" if name == "id" else name: column for name, column in table.items()}
-    columns = {"id": np.arange(1, count + 1), "type": np.ones(count)} | columns | {"z": np.zeros(count)}
+    columns = {"id": _ids(table), "type": np.ones(count)} | columns | {"z": np.zeros(count)}
     (x0, x1), (y0, y1) = ((table[a].min(initial=0), table[a].max(initial=0)) for a in "xy")
     head = (
         f"ITEM: TIMESTEP\n{instant.step}\nITEM: NUMBER OF ATOMS\n{count}\nITEM: BOX BOUNDS ff ff pp\n"
@@ -41,6 +41,15 @@ def write_ovito(path: Path, table: Columns, instant: Instant) -> None:
     )
     with drafted(path) as draft:
         np.savetxt(draft, _rows(columns), fmt="%.9g", header=head, comments="")
+
+
+def _ids(table: Columns) -> np.ndarray:
+    """A grain's own; its discs follow each other."""
+    if "id" not in table:
+        return np.arange(1, len(table["x"]) + 1)
+    if "disc" not in table:
+        return table["id"]
+    return (table["id"] - 1) * (1 + table["disc"].max(initial=0)) + table["disc"] + 1
 
 
 def _rows(table: Columns) -> np.ndarray:

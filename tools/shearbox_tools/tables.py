@@ -12,6 +12,7 @@ from .files import CELLS_DUMP, CONTACTS_DUMP, DISCS_DUMP, GRAINS_DUMP, SHEAR_TAB
 from .readers import Columns, read_shear
 
 GRID = "cells"  # the table of the cells of a grid
+NAMES = ("grains", "discs", "walls", "contacts", GRID)  # of the tables
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,7 @@ class Instant:
 
 
 class Tables:
-    """The dumps of a shear phase, frame by frame.
+    """The dumps of a shear phase, frame by frame, with rows in the order of ids: in the dumps it changes as LAMMPS sorts atoms.
 
     grains    of grains.dump, walls left out; and rotation (rad), moved_x, moved_y (m), since the first frame
     discs     of discs.dump, walls left out; and rotation
@@ -58,7 +59,9 @@ class Tables:
 
     def frame(self, step: int) -> dict[str, Columns]:
         """The tables of one frame, by name."""
-        grains, discs = self._grains.whole_frame(step), self._discs.whole_frame(step)
+        grains = _in_order(self._grains.whole_frame(step), "id")
+        discs = _in_order(self._discs.whole_frame(step), "id", "disc")
+        contacts = _in_order(self._contacts.whole_frame(step), "id1", "id2", "disc1", "disc2")
         grains |= {"rotation": self._since(grains, "angle")}
         grains |= {f"moved_{axis}": self._since(grains, axis) for axis in "xy"}
         row = _row_of(grains)
@@ -68,7 +71,7 @@ class Tables:
             "grains": _rows(grains, grains["wall"] == 0),
             "discs": _rows(discs, ~of_wall),
             "walls": _rows(discs, of_wall),
-            "contacts": _with_branches(self._contacts.whole_frame(step), grains, row),
+            "contacts": _with_branches(contacts, grains, row),
         }
         return tables | ({GRID: self._cells.whole_frame(step)} if self._cells else {})
 
@@ -84,6 +87,11 @@ def _row_of(grains: Columns) -> Callable[[np.ndarray], np.ndarray]:
     """A function that gives the rows of grains by their ids."""
     order = np.argsort(grains["id"])
     return lambda ids: order[np.searchsorted(grains["id"], ids, sorter=order)]
+
+
+def _in_order(columns: Columns, *keys: str) -> Columns:
+    """Sorted by the first key, then the second, and so on, of those that there are."""
+    return _rows(columns, np.lexsort([columns[key] for key in reversed(keys) if key in columns]))
 
 
 def _rows(columns: Columns, which: np.ndarray) -> Columns:
