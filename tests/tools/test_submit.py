@@ -3,13 +3,16 @@
 
 import os
 import shlex
+import shutil
 import subprocess
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from shearbox_tools.cli import main
 from shearbox_tools.cluster import Cluster, read_cluster
 from shearbox_tools.errors import InputError
+from shearbox_tools.jobs import name_of
 from shearbox_tools.layout import Layout
 from shearbox_tools.models import find_model
 from shearbox_tools.request import Request
@@ -20,7 +23,7 @@ ROOT = Path(__file__).resolve().parents[2]
 SHEARBOX = ROOT / "tools" / "shearbox"
 MODEL = "TypeA_10x5_4-8_1-circle_350"
 REQUEST = Request(find_model(MODEL), (100.0, 200.0, 300.0, 400.0))
-AWKWARD = "a b 'c' \"d\" $HOME `date` %a ;é"
+AWKWARD = "a b 'c' \"d\" $HOME `date` ;é"
 SLURM = find_scheduler("slurm")
 
 
@@ -70,7 +73,7 @@ def test_the_script_of_an_array() -> None:
 
 def test_words_reach_the_command_as_they_are(tmp_path: Path) -> None:
     """A shell runs the script; its command is one that says what it is given."""
-    words = [AWKWARD, "", "-n", "*", "\\", "line\nline"]
+    words = [AWKWARD, "", "-n", "*", "\\", "%a", "line\nline"]
     job = replace(JOB, command=["/usr/bin/python3", "-c", "import sys; print(sys.argv[1:])", *words])
     script = tmp_path / "tests.sh"
     script.write_text(SLURM.script(job, Cluster()), encoding="utf-8")
@@ -100,6 +103,75 @@ def test_without_a_batch_system_nothing_is_begun(tmp_path: Path) -> None:
     assert "shearbox: sbatch: No such file or directory; is this a machine of the cluster?" in failed.stderr
     failed = submit(tmp_path / "other", PATH=str(tmp_path))
     assert "shearbox: squeue: No such file" in failed.stderr and not (tmp_path / "other").exists()
+
+
+@pytest.fixture(name="idle")
+def _idle(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A batch system that takes every job, and knows of none: the commands it was given."""
+    programs, said = tmp_path / "programs", tmp_path / "said"
+    programs.mkdir()
+    for name in ("sbatch", "squeue", "scancel"):
+        answer = "echo 7" if name == "sbatch" else "true"
+        (programs / name).write_text(f'#!/bin/sh\necho "{name} $*" >> "{said}"\n{answer}\n', encoding="utf-8")
+        (programs / name).chmod(0o755)
+    monkeypatch.setenv("PATH", f"{programs}:{os.environ['PATH']}")
+    return said
+
+
+def test_a_copy_of_what_was_submitted_has_no_jobs(tmp_path: Path, idle: Path, capsys: pytest.CaptureFixture) -> None:
+    """Those of the first one are neither told nor ended by it."""
+    first, copy = tmp_path / "first", tmp_path / "copy"
+    assert submit(first).returncode == 0
+    shutil.copytree(first, copy)
+    for command in ("status", "cancel"):
+        assert main([command, str(copy)]) == 2
+        assert f"its record of jobs is of the folder that it was copied or moved from: jobs {name_of(first)}" in (
+            capsys.readouterr().err
+        )
+    assert "scancel" not in idle.read_text(encoding="utf-8")
+    assert submit(copy).returncode == 0
+    assert main(["status", str(copy)]) == 0
+
+
+def test_jobs_are_those_of_a_folder_however_its_path_is_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / "results"
+    folder.mkdir()
+    (tmp_path / "link").symlink_to(folder)
+    monkeypatch.chdir(tmp_path)
+    others = [tmp_path / "link", Path("results"), folder / ".." / "results"]
+    assert {name_of(other) for other in others} == {name_of(folder)}
+    assert name_of(tmp_path) != name_of(folder)
+
+
+def test_a_run_that_is_gone_hides_no_other(tmp_path: Path, idle: Path, capsys: pytest.CaptureFixture) -> None:
+    folder = tmp_path / "results"
+    assert submit(folder, "--seeds", "2").returncode == 0
+    shutil.rmtree(folder / "seed_1")
+    assert main(["status", str(folder)]) == 0
+    gone, there = capsys.readouterr().out.splitlines()
+    assert gone.startswith("seed_1: ") and "seed_1" in gone.partition(":")[2] and "phases" not in gone
+    assert there.startswith("seed_2: ended before it was done") and there.endswith("0 of 9 phases done")
+
+
+def test_runs_whose_names_differ_by_a_dot_are_told_apart(
+    tmp_path: Path, idle: Path, capsys: pytest.CaptureFixture
+) -> None:
+    campaign = tmp_path / "campaign.toml"
+    campaign.write_text(f'[all]\nmodel = "{MODEL}"\n[runs.a]\n[runs.".a"]\n', encoding="utf-8")
+    command = [str(SHEARBOX), "submit", str(campaign), "--out", str(tmp_path / "results"), "--engine", "/bin/true"]
+    subprocess.run(command, check=True)
+    assert main(["status", str(tmp_path / "results")]) == 0
+    assert [line.partition(":")[0] for line in capsys.readouterr().out.splitlines()] == ["a", ".a"]
+
+
+@pytest.mark.parametrize("name", ["50%", "a\\b"])
+def test_a_path_in_which_slurm_sees_patterns_is_refused(tmp_path: Path, idle: Path, name: str) -> None:
+    refused = submit(tmp_path / name, "--dry-run")
+    assert refused.returncode == 2
+    assert f"{tmp_path / name}: Slurm reads % and \\ in the path of a log as patterns" in refused.stderr
+    assert not (tmp_path / name).exists()
 
 
 @pytest.mark.parametrize(

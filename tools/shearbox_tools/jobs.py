@@ -33,24 +33,35 @@ class Jobs:
             raise InputError(
                 f"element {element}: 1 to {len(self.elements)} are expected, see {folder / JOBS / _RECORD}"
             )
-        return [Run(folder / name, recorded(folder / name), name.strip(".")) for name in self.elements[element - 1]]
+        return [run_of(folder, name) for name in self.elements[element - 1]]
 
     def write(self, folder: Path) -> None:
         """Keep it in a folder."""
         write_json(folder / JOBS / _RECORD, asdict(self))
 
 
+def run_of(folder: Path, name: str) -> Run:
+    """A run of what was submitted of a folder, as it is recorded in its own; "." is the folder itself."""
+    return Run(folder / name, recorded(folder / name), "" if name == "." else name)
+
+
 def read_jobs(folder: Path) -> Jobs:
-    """What was submitted of a folder."""
+    """What was submitted of a folder. The record in a copy of it is refused: it tells of the jobs of the first one."""
     path = folder / JOBS / _RECORD
     try:
-        return Jobs(**json.loads(path.read_text(encoding="utf-8")))
+        jobs = Jobs(**json.loads(path.read_text(encoding="utf-8")))
     except FileNotFoundError as error:
         raise InputError(f"{folder}: nothing was submitted of it, there is no {JOBS}/{_RECORD}") from error
     except (OSError, ValueError, TypeError) as error:
         raise ShearboxError(f"{path}: this is not the record of a submission: {error}") from error
+    if jobs.name != name_of(folder):
+        raise InputError(
+            f"{folder}: its record of jobs is of the folder that it was copied or moved from: jobs {jobs.name} of the batch "
+            "system. 'shearbox submit' submits from here what is left to do"
+        )
+    return jobs
 
 
 def name_of(folder: Path) -> str:
-    """By which its jobs, and no others, are known to the batch system."""
-    return f"shearbox_{hashlib.sha256(str(folder.absolute()).encode()).hexdigest()[:8]}"
+    """By which its jobs, and no others, are known to the batch system, however the path to it is written."""
+    return f"shearbox_{hashlib.sha256(str(folder.resolve()).encode()).hexdigest()[:8]}"

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from .errors import ShearboxError
 from .forecast import Forecast
-from .jobs import JOBS, REPORT, TESTS, read_jobs
+from .jobs import JOBS, REPORT, TESTS, read_jobs, run_of
 from .phases import SHEAR
 from .schedulers import find_scheduler
 from .specimens import Run
@@ -41,22 +41,22 @@ def status(folder: Path, as_json: bool = False) -> None:
         states = find_scheduler(jobs.scheduler).states(jobs.name)
     except ShearboxError as error:
         print(f"the batch system does not answer: {error}", file=sys.stderr if as_json else sys.stdout)
-    every = [(number, run) for number in range(1, len(jobs.elements) + 1) for run in jobs.runs(folder, number)]
     told = {
-        run.name
-        or str(folder): (
-            _state(folder, run, number, "?" if states is None else states.get(number, "")),
-            Progress(Forecast(run.folder, run.request)),
-        )
-        for number, run in every
+        str(folder)
+        if name == "."
+        else name: _told(folder, name, number, "?" if states is None else states.get(number, ""))
+        for number, names in enumerate(jobs.elements, 1)
+        for name in names
     }
     report = states.get(0) if states else None
     if as_json:
-        runs = {name: {"state": state, **vars(progress)} for name, (state, progress) in told.items()}
+        runs = {
+            name: {"state": state, **(vars(progress) if progress else {})} for name, (state, progress) in told.items()
+        }
         print(json.dumps({"runs": runs, REPORT: report}, indent=2))
         return
     for name, (state, progress) in told.items():
-        print(f"{name}: {state}; {progress}")
+        print(f"{name}: {state}" + (f"; {progress}" if progress else ""))
     if report:
         print(f"{REPORT}: {report}")
 
@@ -74,6 +74,15 @@ def cancel(folder: Path) -> None:
             )
         time.sleep(POLL_SECONDS)
     print("its jobs have ended; nothing is lost: 'shearbox submit' with the same options goes on")
+
+
+def _told(folder: Path, name: str, element: int, state: str) -> tuple[str, Progress | None]:
+    """State and progress of a run; one that cannot be read says so, and is in the way of no other."""
+    try:
+        run = run_of(folder, name)
+        return _state(folder, run, element, state), Progress(Forecast(run.folder, run.request))
+    except ShearboxError as error:
+        return "; ".join(filter(None, [state, str(error)])), None
 
 
 def _state(folder: Path, run: Run, element: int, state: str) -> str:

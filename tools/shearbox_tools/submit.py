@@ -33,6 +33,7 @@ def submit(options: argparse.Namespace, asked: list[dict[str, Any]]) -> None:
     cluster = read_cluster(given.get("cluster"))
     scheduler = find_scheduler(cluster.scheduler)
     out, runs, engine = prepare(options, asked)
+    scheduler.check(out)
     left = [run for run in runs if any(left_to_do(run.folder, run.request))]
     if not left:
         print(f"nothing is left to do in {out}; 'shearbox report' writes its report")

@@ -33,6 +33,9 @@ class Job:
 class Scheduler(Protocol):
     """A batch system. What asks it raises ShearboxError with what it says."""
 
+    def check(self, folder: Path) -> None:
+        """Refuse a folder from which jobs cannot be submitted."""
+
     def script(self, job: Job, cluster: Cluster) -> str:
         """The job's script."""
 

@@ -8,7 +8,7 @@ import subprocess
 from pathlib import Path
 
 from ..cluster import Cluster
-from ..errors import ShearboxError
+from ..errors import InputError, ShearboxError
 from . import Job
 
 MINUTES_A_DAY = 24 * 60
@@ -16,6 +16,12 @@ MINUTES_A_DAY = 24 * 60
 
 class Slurm:
     """See the interface."""
+
+    def check(self, folder: Path) -> None:
+        """The path of a log is that of the folder as well, and a job whose log cannot be opened ends without a word."""
+        path = str(folder.resolve())
+        if "%" in path or "\\" in path:
+            raise InputError(f"{path}: Slurm reads % and \\ in the path of a log as patterns; another folder is needed")
 
     def script(self, job: Job, cluster: Cluster) -> str:
         """One shell that becomes the command: it gets the signal (B:) itself, and need not pass it on."""
