@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 import platform
 import re
@@ -24,6 +25,11 @@ PROGRAMS = {CDEM: str(ROOT / "build" / "lmp_cdem"), STOCK: "lmp", LIGGGHTS: "lig
 PACKAGES = {CDEM: "tools/setup", STOCK: "apt-get install lammps", LIGGGHTS: "apt-get install liggghts"}
 VERSIONS = {CDEM: r"Shearbox (.*)", STOCK: r"LAMMPS \((.*)\)", LIGGGHTS: r"LIGGGHTS-PUBLIC ([^,]*)"}
 PHASES = ("pair", "neigh", "comm", "output", "modify", "other")
+
+
+def build_of(tree: Path) -> str:
+    """Ten digits that tell the engine of a tree from other builds: scenes are kept by it, as restart files are of one build."""
+    return hashlib.sha256((tree / "build" / "lmp_cdem").read_bytes()).hexdigest()[:10]
 
 
 class EngineError(RuntimeError):
