@@ -56,6 +56,9 @@ def test_the_same_for_scripts(capsys):
         ("phi=", "--set phi=: NAME=VALUE"),
         ("fi=30", "there is no parameter fi; 'shearbox parameters' lists them"),
         ("areal=20", "there is no parameter areal"),
+        ("phi_wall=30", "--set phi_wall=30: it changes nothing as long as ks_wall is 0"),
+        ("ks_wall=1e7", "--set ks_wall=10000000: it changes nothing as long as phi_wall is 0"),
+        ("side_pitch=0.5", "--set side_pitch=0.5: it changes nothing as long as sides is smooth"),
         ("check=1.5", "--set check 1.5: 1 to 1000000, whole is expected"),
         ("shape=quadruple", "--set shape quadruple: single or triple or file ... or discs ... is expected"),
         ("shape=single file", "--set shape single file: single or"),
@@ -199,3 +202,11 @@ def test_what_is_wrong_in_the_deck_is_named(tmp_path, monkeypatch, old, new, mes
     with pytest.raises(ShearboxError) as error:
         check(Request(find_model(MODEL), (100.0,)))
     assert message in str(error.value)
+
+
+def test_what_acts_together_may_be_set_together():
+    """And a value that is the default's may be written down."""
+    both = ["phi_wall=30", "ks_wall=1e7"]
+    assert read_settings(both, OWN_OPTION) == {"phi_wall": "30", "ks_wall": "10000000"}
+    assert read_settings(["side_pitch=0.5", "sides=discs"], OWN_OPTION) == {"side_pitch": "0.5", "sides": "discs"}
+    assert read_settings(["ks_wall=0", "phi_wall=0.0"], OWN_OPTION) == {"ks_wall": "0", "phi_wall": "0"}

@@ -240,6 +240,12 @@ def test_what_a_file_of_a_cluster_may_not_say(tmp_path: Path, text: str, message
     assert message in str(refused.value)
 
 
+@pytest.mark.parametrize("option", ["--array=1-8%2", "-J mine", "--output=log"])
+def test_options_that_are_not_the_users(option: str) -> None:
+    with pytest.raises(InputError, match=f"options = '{option}': 'shearbox submit' sets it itself"):
+        SLURM.script(JOB, Cluster(options=("--mem=1G", option)))
+
+
 def test_a_file_of_a_cluster_that_is_not_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("HOME", str(tmp_path))
     assert read_cluster(None) == Cluster()

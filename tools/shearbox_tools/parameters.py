@@ -29,6 +29,9 @@ _NEEDED = (
 )  # by us
 
 
+_IDLE_WHILE = (("phi_wall", "ks_wall", "0"), ("ks_wall", "phi_wall", "0"), ("side_pitch", "sides", "smooth"))
+
+
 @dataclass(frozen=True)
 class Parameter:
     """A variable of the decks: `value` is that of parameters.in, or None if the model's file has it."""
@@ -105,9 +108,20 @@ def read_settings(texts: list[str], own_option: dict[str, str]) -> dict[str, str
             problems.append(f"--set {problem}")
         else:
             settings[name] = canonical(value)
+    problems += _idle(settings, known)
     if problems:
         raise InputError("\n".join(problems))
     return settings
+
+
+def _idle(settings: dict[str, str], known: dict[str, Parameter]) -> list[str]:
+    """What is set, and would change nothing."""
+    values = {name: canonical(parameter.value or "") for name, parameter in known.items()} | settings
+    return [
+        f"--set {name}={settings[name]}: it changes nothing as long as {other} is {idle}"
+        for name, other, idle in _IDLE_WHILE
+        if name in settings and settings[name] != canonical(known[name].value or "") and values[other] == idle
+    ]
 
 
 def of_model(settings: dict[str, str]) -> dict[str, str]:

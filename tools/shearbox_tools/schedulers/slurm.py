@@ -12,6 +12,7 @@ from ..errors import InputError, ShearboxError
 from . import Job
 
 MINUTES_A_DAY = 24 * 60
+OURS = ("--array", "-a", "--job-name", "-J", "--output", "-o", "--dependency", "-d", "--signal", "--open-mode")
 
 
 class Slurm:
@@ -25,6 +26,9 @@ class Slurm:
 
     def script(self, job: Job, cluster: Cluster) -> str:
         """One shell that becomes the command: it gets the signal (B:) itself, and need not pass it on."""
+        for option in cluster.options:
+            if option.startswith(OURS):
+                raise InputError(f"options = {option!r}: 'shearbox submit' sets it itself")
         hours, minutes = divmod(job.minutes % MINUTES_A_DAY, 60)
         options = [
             f"--job-name={job.name}",
