@@ -7,6 +7,7 @@ import shutil
 import subprocess
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from shearbox_tools.cli import main
@@ -153,6 +154,35 @@ def test_a_run_that_is_gone_hides_no_other(tmp_path: Path, idle: Path, capsys: p
     gone, there = capsys.readouterr().out.splitlines()
     assert gone.startswith("seed_1: ") and "seed_1" in gone.partition(":")[2] and "phases" not in gone
     assert there.startswith("seed_2: ended before it was done") and there.endswith("0 of 9 phases done")
+
+
+def test_what_is_submitted_again_is_told_with_what_was_done_and_by_its_own_words(
+    tmp_path: Path, idle: Path, capsys: pytest.CaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Element 1 is seed_1 at first and seed_2 then; what it said of seed_1 is kept, and not taken for a word on seed_2."""
+    folder = tmp_path / "results"
+    assert submit(folder, "--seeds", "2").returncode == 0
+    log = folder / "jobs" / "tests_1.log"
+    with log.open("a", encoding="utf-8") as stream:
+        stream.write("seed_1 shear 100 kPa: done in 4 s\n")
+    monkeypatch.setattr("shearbox_tools.submit.left_to_do", lambda place, request: [place.name != "seed_1"])
+    given = [MODEL, "--out", str(folder), "--engine", "/bin/true", "--seeds", "2"]
+    assert main(["submit", *given]) == 0
+    monkeypatch.setattr("shearbox_tools.status.Forecast", lambda place, request: Done(place.name == "seed_1"))
+    capsys.readouterr()
+    assert main(["status", str(folder)]) == 0
+    assert capsys.readouterr().out.splitlines() == [
+        "seed_1: done; 1 of 1 phases done",
+        f"seed_2: ended before it was done, see {log}: nothing; 0 of 1 phases done",
+    ]
+    assert "seed_1 shear 100 kPa: done in 4 s" in log.read_text(encoding="utf-8")
+
+
+class Done:
+    """A forecast of one phase."""
+
+    def __init__(self, done: bool) -> None:
+        self.phases = [SimpleNamespace(name="pack", done=done)]
 
 
 def test_runs_whose_names_differ_by_a_dot_are_told_apart(

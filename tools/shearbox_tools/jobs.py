@@ -3,7 +3,9 @@
 
 import hashlib
 import json
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from datetime import datetime
 from pathlib import Path
 
 from .errors import InputError, ShearboxError
@@ -14,11 +16,12 @@ from .specimens import Run
 JOBS = "jobs"
 TESTS, REPORT = "tests", "report"  # the two jobs, as their scripts and logs are called
 _RECORD = "jobs.json"
+_BEGINS = "--- submitted "
 
 
 @dataclass(frozen=True)
 class Jobs:
-    """The folders of the runs of each element, relative to that of all, and how they are carried out."""
+    """The folders of the runs of each element, relative to that of all, how they are carried out, and what was done before."""
 
     scheduler: str
     name: str
@@ -26,6 +29,7 @@ class Jobs:
     at_a_time: int  # tests of an element
     ranks: int
     engine: str
+    done: Sequence[str] = ()  # runs of which nothing was left
 
     def runs(self, folder: Path, element: int) -> list[Run]:
         """Those of an element, from 1 on, as they are recorded in their folders."""
@@ -36,8 +40,27 @@ class Jobs:
         return [run_of(folder, name) for name in self.elements[element - 1]]
 
     def write(self, folder: Path) -> None:
-        """Keep it in a folder."""
+        """Keep it in a folder, and begin anew in the logs of its elements, which may have been those of other runs."""
         write_json(folder / JOBS / _RECORD, asdict(self))
+        for number, names in enumerate(self.elements, 1):
+            with log_of(folder, number).open("a", encoding="utf-8") as log:
+                log.write(f"{_BEGINS}{datetime.now():%Y-%m-%d %H:%M:%S}: {', '.join(names)}\n")
+
+
+def log_of(folder: Path, element: int) -> Path:
+    """What the jobs of an element say."""
+    return folder / JOBS / f"{TESTS}_{element}.log"
+
+
+def said(log: Path) -> list[str]:
+    """Lines of a log since its element was submitted last, without empty ones; none if there is no log."""
+    try:
+        text = log.read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return []
+    lines = [line.strip() for line in text.split("\n")]
+    last = max((k for k, line in enumerate(lines) if line.startswith(_BEGINS)), default=-1)
+    return [line for line in lines[last + 1 :] if line]
 
 
 def run_of(folder: Path, name: str) -> Run:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from .errors import ShearboxError
 from .forecast import Forecast
-from .jobs import JOBS, REPORT, TESTS, read_jobs, run_of
+from .jobs import REPORT, log_of, read_jobs, run_of, said
 from .phases import SHEAR
 from .schedulers import find_scheduler
 from .specimens import Run
@@ -41,11 +41,10 @@ def status(folder: Path, as_json: bool = False) -> None:
         states = find_scheduler(jobs.scheduler).states(jobs.name)
     except ShearboxError as error:
         print(f"the batch system does not answer: {error}", file=sys.stderr if as_json else sys.stdout)
+    of_element = ["", *("?" if states is None else states.get(k, "") for k in range(1, len(jobs.elements) + 1))]
     told = {
-        str(folder)
-        if name == "."
-        else name: _told(folder, name, number, "?" if states is None else states.get(number, ""))
-        for number, names in enumerate(jobs.elements, 1)
+        str(folder) if name == "." else name: _told(folder, name, number, of_element[number])
+        for number, names in enumerate([jobs.done, *jobs.elements])
         for name in names
     }
     report = states.get(0) if states else None
@@ -77,7 +76,8 @@ def cancel(folder: Path) -> None:
 
 
 def _told(folder: Path, name: str, element: int, state: str) -> tuple[str, Progress | None]:
-    """State and progress of a run; one that cannot be read says so, and is in the way of no other."""
+    """State and progress of a run, of element 0 if there was nothing left of it; one that cannot be read says so, and is in
+    the way of no other."""
     try:
         run = run_of(folder, name)
         return _state(folder, run, element, state), Progress(Forecast(run.folder, run.request))
@@ -88,15 +88,9 @@ def _told(folder: Path, name: str, element: int, state: str) -> tuple[str, Progr
 def _state(folder: Path, run: Run, element: int, state: str) -> str:
     if state or all(phase.done for phase in Forecast(run.folder, run.request).phases):
         return state or "done"
-    log = folder / JOBS / f"{TESTS}_{element}.log"
-    return f"ended before it was done, see {log}: {_last_words(log)}"
-
-
-def _last_words(log: Path) -> str:
-    """What a job said last."""
-    try:
-        lines = log.read_text(encoding="utf-8", errors="replace").split("\n")
-    except OSError:
-        return "there is none"
-    said = [line.strip() for line in lines if line.strip()]
-    return next((line for line in reversed(said) if line.startswith("shearbox: ")), said[-1] if said else "nothing")
+    if not element:
+        return "was done when the others were submitted, and is no more"
+    log = log_of(folder, element)
+    lines = said(log)
+    last = next((line for line in reversed(lines) if line.startswith("shearbox: ")), lines[-1] if lines else "nothing")
+    return f"ended before it was done, see {log}: {last}"
