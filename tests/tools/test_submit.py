@@ -134,6 +134,21 @@ def test_a_copy_of_what_was_submitted_has_no_jobs(tmp_path: Path, idle: Path, ca
     assert main(["status", str(copy)]) == 0
 
 
+def test_the_environment_neither_hides_nor_renames_jobs(
+    tmp_path: Path, idle: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What else a user has set for Slurm is kept."""
+    for name in ("sbatch", "squeue", "scancel"):
+        (tmp_path / "programs" / name).write_text(f'#!/bin/sh\nenv >> "{idle}"\necho 7\n', encoding="utf-8")
+    for name in ("SQUEUE_STATES", "SBATCH_JOB_NAME", "SBATCH_ACCOUNT", "LOGNAME"):
+        monkeypatch.setenv(name, "sand")
+    SLURM.submit(tmp_path / "jobs" / "tests.sh")
+    SLURM.cancel("name")
+    said = idle.read_text(encoding="utf-8")
+    assert "SBATCH_ACCOUNT=sand" in said
+    assert not {"SQUEUE_STATES=sand", "SBATCH_JOB_NAME=sand"} & set(said.splitlines())
+
+
 def test_jobs_are_those_of_a_folder_however_its_path_is_written(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
