@@ -13,8 +13,9 @@ ROOT = Path(__file__).resolve().parents[2]
 MODEL = "TypeA_10x5_2-4_3-circle_350"
 SOON_PACKED = "TypeA_10x5_4-8_1-circle_350"
 MODULES = Path("/usr/share/modules/init/bash")
-# No more than a new user has: nothing here may point to the repository.
-ENVIRONMENT = {"PATH": "/usr/bin:/bin", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+# No more than a new user has: nothing here may point to the repository. Open MPI 5 does not begin without a home.
+AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+ENVIRONMENT = {"PATH": "/usr/bin:/bin", "HOME": str(Path.home()), **AS_ROOT}
 
 
 @pytest.fixture(scope="module", name="prefix")
