@@ -27,8 +27,7 @@ _NEEDED = (
     "dt_max",
     "phi_packing",
 )  # by us
-
-
+# What changes nothing as long as another has this value.
 _IDLE_WHILE = (("phi_wall", "ks_wall", "0"), ("ks_wall", "phi_wall", "0"), ("side_pitch", "sides", "smooth"))
 
 

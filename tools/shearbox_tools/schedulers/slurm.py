@@ -11,8 +11,9 @@ from ..errors import InputError, ShearboxError
 from . import Job
 
 MINUTES_A_DAY = 24 * 60
-VARIABLES = ("SBATCH_ARRAY_INX", "SBATCH_JOB_NAME", "SBATCH_OPEN_MODE", "SBATCH_OUTPUT", "SBATCH_SIGNAL")
+# Options that a script has of its own, and variables of the environment that come before them.
 OURS = ("--array", "-a", "--job-name", "-J", "--output", "-o", "--dependency", "-d", "--signal", "--open-mode")
+VARIABLES = ("SBATCH_ARRAY_INX", "SBATCH_JOB_NAME", "SBATCH_OPEN_MODE", "SBATCH_OUTPUT", "SBATCH_SIGNAL")
 
 
 class Slurm:
