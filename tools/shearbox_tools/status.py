@@ -11,7 +11,6 @@ from .forecast import Forecast
 from .jobs import REPORT, log_of, read_jobs, run_of, said
 from .phases import SHEAR
 from .schedulers import find_scheduler
-from .specimens import Run
 
 SECONDS_TO_END = 120
 POLL_SECONDS = 0.5
@@ -80,14 +79,16 @@ def _told(folder: Path, name: str, element: int, state: str) -> tuple[str, Progr
     the way of no other."""
     try:
         run = run_of(folder, name)
-        return _state(folder, run, element, state), Progress(Forecast(run.folder, run.request))
+        progress = Progress(Forecast(run.folder, run.request))
     except ShearboxError as error:
         return "; ".join(filter(None, [state, str(error)])), None
+    return state or _without_a_job(folder, element, progress), progress
 
 
-def _state(folder: Path, run: Run, element: int, state: str) -> str:
-    if state or all(phase.done for phase in Forecast(run.folder, run.request).phases):
-        return state or "done"
+def _without_a_job(folder: Path, element: int, progress: Progress) -> str:
+    """State of a run that the batch system knows nothing of."""
+    if progress.phases_done == progress.phases:
+        return "done"
     if not element:
         return "was done when the others were submitted, and is no more"
     log = log_of(folder, element)

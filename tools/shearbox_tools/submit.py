@@ -48,7 +48,8 @@ def submit(options: argparse.Namespace, asked: list[dict[str, Any]]) -> None:
     check_disk(out, [one for some in layout.forecasts for one in some])
     elements = [[str(run.folder.relative_to(out)) for run in element] for element in layout.elements]
     program = str(engine.program.absolute())
-    done = [str(run.folder.relative_to(out)) for run in runs if run not in left]
+    submitted = {run.folder for run in left}
+    done = [str(run.folder.relative_to(out)) for run in runs if run.folder not in submitted]
     record = Jobs(cluster.scheduler, name_of(out), elements, layout.at_a_time, engine.ranks, program, done)
     _write(out, runs, record, scripts, scheduler)
     tests = scheduler.submit(_script(out, TESTS))

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Frames of a shear phase as tables for other programs, with all columns of the dumps, in SI units."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -64,14 +63,14 @@ class Tables:
         contacts = _in_order(self._contacts.whole_frame(step), "id1", "id2", "disc1", "disc2")
         grains |= {"rotation": self._since(grains, "angle")}
         grains |= {f"moved_{axis}": self._since(grains, axis) for axis in "xy"}
-        row = _row_of(grains)
-        discs |= {"rotation": grains["rotation"][row(discs["id"])]}
-        of_wall = grains["wall"][row(discs["id"])] == 1
+        grain = _rows_of(grains, discs["id"])
+        discs |= {"rotation": grains["rotation"][grain]}
+        of_wall = grains["wall"][grain] == 1
         tables = {
             "grains": _rows(grains, grains["wall"] == 0),
             "discs": _rows(discs, ~of_wall),
             "walls": _rows(discs, of_wall),
-            "contacts": _with_branches(contacts, grains, row),
+            "contacts": _with_branches(contacts, grains),
         }
         return tables | ({GRID: self._cells.whole_frame(step)} if self._cells else {})
 
@@ -83,23 +82,22 @@ class Tables:
         return change
 
 
-def _row_of(grains: Columns) -> Callable[[np.ndarray], np.ndarray]:
-    """A function that gives the rows of grains by their ids."""
-    order = np.argsort(grains["id"])
-    return lambda ids: order[np.searchsorted(grains["id"], ids, sorter=order)]
-
-
 def _in_order(columns: Columns, *keys: str) -> Columns:
     """Sorted by the first key, then the second, and so on, of those that there are."""
     return _rows(columns, np.lexsort([columns[key] for key in reversed(keys) if key in columns]))
+
+
+def _rows_of(grains: Columns, ids: np.ndarray) -> np.ndarray:
+    """Where the grains of these ids are; grains are in the order of theirs."""
+    return np.searchsorted(grains["id"], ids)
 
 
 def _rows(columns: Columns, which: np.ndarray) -> Columns:
     return {name: column[which] for name, column in columns.items()}
 
 
-def _with_branches(contacts: Columns, grains: Columns, row: Callable[[np.ndarray], np.ndarray]) -> Columns:
-    first, second = row(contacts["id1"]), row(contacts["id2"])
+def _with_branches(contacts: Columns, grains: Columns) -> Columns:
+    first, second = _rows_of(grains, contacts["id1"]), _rows_of(grains, contacts["id2"])
     branches = {}
     for axis in "xy":
         ends = [np.where(grains["wall"][k] == 1, contacts[axis], grains[axis][k]) for k in (first, second)]
