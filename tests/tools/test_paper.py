@@ -21,9 +21,10 @@ from paper_tools.effects import CONFIRMED, CONTRADICTED, OPEN
 from paper_tools.findings import Finding, halves_agree, of_the_laws
 from paper_tools.record import read_record, write_record
 from paper_tools.specimens import CURVES, JUDGED, NUMBERS, PLACES, Group, Specimen
-from paper_tools.study import CAMPAIGNS, Part, campaign_file, parts_left, report
+from paper_tools.study import CAMPAIGNS, Part, campaign_file, parts_left, report, runs_of
 from shearbox_tools.cli import main
 from shearbox_tools.errors import ShearboxError
+from shearbox_tools.grains import area_over_largest
 from shearbox_tools.models import find_model
 from shearbox_tools.phases import shearing
 from shearbox_tools.request import Request
@@ -130,6 +131,17 @@ def test_a_campaign_can_be_read(name: str, tmp_path: Path, capsys: pytest.Captur
     words = ["run", campaign_file(name), "--out", tmp_path, "--dry-run", "--engine", TESTS / "fake_engine.py"]
     assert main([str(word) for word in words]) == 0
     assert "in all about" in capsys.readouterr().out
+
+
+def test_grains_of_several_discs_are_as_large_as_single_ones() -> None:
+    """Of the campaign of shapes: shape alone is varied, not the size of grains against the box."""
+    single = find_model("TypeA_10x5_4-8_1-circle_350")
+    for run, options in runs_of("shape").items():
+        model = find_model(options["model"], {name: str(value) for name, value in options["set"].items()})
+        assert (model.discs, model.ngrains) == (int(run[-1]), single.ngrains)
+        for size in ("dmin", "dmax"):
+            area = area_over_largest(model.shape) * getattr(model, size) ** 2
+            assert area == pytest.approx(np.pi / 4 * getattr(single, size) ** 2, rel=1e-3), run
 
 
 def write_specimen(folder: Path, model: str, seed: int) -> None:

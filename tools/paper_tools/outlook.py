@@ -22,7 +22,8 @@ from .effects import Effect, mean, slope
 from .figures import legend_above
 from .specimens import ANGLES, Group
 
-FAMILIES = {"single": "A_4-8", "triple": "A_2-4_triple"}  # and the models of the campaign of all
+# and the models of the campaign of all that have the paper's value
+FAMILIES = {"single": "A_4-8", "triple": "A_2-4_triple", "row": "A_4-8", "close": "A_4-8"}
 PANELS = {
     "phi": "φ by the lid (°)",
     "phi_plane": "φ by the shear plane (°)",
@@ -49,6 +50,7 @@ SWEEPS = (
     Sweep("rate", "Loading rate", "shear speed (mm/s)", "", True),
     Sweep("inertia", "Roller effect: moment of inertia", "moment of inertia over that of discs (–)", "1", True),
     Sweep("rolling", "Roller effect: rolling resistance", "coefficient of rolling resistance (–)", "0"),
+    Sweep("shape", "Roller effect: grains of several discs, in a row or close together", "discs of a grain (–)", "1"),
     Sweep("friction", "φ and the friction angle between grains", "φ_μ (degrees)", "27"),
     Sweep("cohesion", "Cohesive contacts", "pull-off force of two discs (N)", "0", panels=COHESIONS | PANELS),
 )
