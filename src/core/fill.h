@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Diameters of N grains that follow a power law, and positions for them without overlap. The same input gives the same
-// bits on every machine: the C++ standard fixes the generator, but not its distributions and std::shuffle, which are
-// therefore not used.
+// Discs that command cdem/create makes: in a row, or N grains whose diameters follow a power law, without overlap in a
+// rectangle. The same input gives the same bits on every machine: the C++ standard fixes the generator, but not its
+// distributions and std::shuffle, which are therefore not used.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -93,5 +95,58 @@ inline std::vector<Place> rows_of_discs(const std::vector<double> &diameters, do
   }
   return places;
 }
+
+struct PlacedDisc {
+  double x, y, diameter; // of the centre, m
+};
+
+// n discs, their centres evenly spaced from one place to the other, both included.
+inline std::vector<PlacedDisc> discs_in_a_row(Place from, Place to, int n, double diameter) {
+  std::vector<PlacedDisc> discs;
+  for (int i = 0; i < n; i++) {
+    const double share = n > 1 ? double(i) / (n - 1) : 0;
+    discs.push_back({from.x + share * (to.x - from.x), from.y + share * (to.y - from.y), diameter});
+  }
+  return discs;
+}
+
+// n grains in a rectangle. Throws std::invalid_argument, which says what is wrong.
+struct Filling {
+  int n;
+  double xlo, xhi, ylo, yhi, smallest, largest, power;
+
+  std::vector<PlacedDisc> discs(int seed) const {
+    check();
+    Random random(seed);
+    const auto diameters = power_law_diameters(n, smallest, largest, power, random);
+    double needed;
+    const auto places = rows_of_discs(diameters, xhi - xlo, yhi - ylo, random, needed);
+    if (places.empty())
+      refuse(n, " grains of diameter ", smallest, " to ", largest, " fill a height of ", needed, " in the width ",
+             xhi - xlo, "; the region has ", yhi - ylo);
+    std::vector<PlacedDisc> discs;
+    for (int i = 0; i < n; i++)
+      discs.push_back({xlo + places[i].x, ylo + places[i].y, diameters[i]});
+    return discs;
+  }
+
+private:
+  void check() const {
+    if (!(xlo < xhi && ylo < yhi && std::isfinite(xhi - xlo) && std::isfinite(yhi - ylo)))
+      refuse("region ", xlo, " ", xhi, " ", ylo, " ", yhi, ": must be XLO < XHI, YLO < YHI");
+    if (!(smallest <= largest))
+      refuse("diameter ", smallest, " ", largest, ": must be DMIN <= DMAX");
+    if (largest > xhi - xlo)
+      refuse("grains of diameter ", largest, " do not fit in the width ", xhi - xlo, " of the region");
+    if (!std::isfinite(power))
+      refuse("power ", power, ": must be a number");
+  }
+
+  template <class... Words> [[noreturn]] static void refuse(const Words &...words) {
+    std::ostringstream message;
+    (message << ... << words);
+    throw std::invalid_argument(message.str());
+  }
+};
 
 } // namespace cdem

@@ -129,8 +129,9 @@ private:
           throw std::invalid_argument(name(k) + " is a duplicate of, or lies inside, " + name(l));
       for (std::size_t l = 0; l < k; l++)
         if (hardly_differs(d, members[l]))
-          throw std::invalid_argument(name(k) + " is hardly another than " + name(l) +
-                                      ": both would bear all contacts");
+          throw std::invalid_argument(name(k) + " nearly coincides with " + name(l) +
+                                      ": distance of centres and "
+                                      "difference of radii must add up to 2 % of the smaller radius");
     }
     check_connected();
   }

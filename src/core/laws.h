@@ -130,7 +130,7 @@ using LawOf = decltype(laws::composed<std::tuple_element_t<accumulation, Accumul
     laws::chosen<additions>(std::make_index_sequence<ADDITIONS>())));
 
 // Calls visit with an object of the ContactLaw type that the rules choose, among those with the first `sets` sets of
-// additions: a caller that knows none has the others not compiled with 1.
+// additions. A caller that uses none passes 1, so that no other law is compiled for it.
 template <unsigned sets = 1u << ADDITIONS, int accumulation = 0, unsigned additions = 0, class Visit>
 auto with_law(const ContactRules &rules, Visit visit) {
   if (rules.accumulation == accumulation && rules.additions == additions)

@@ -35,4 +35,15 @@ struct RampedMotion {
   }
 };
 
+// The time of a motion is start + steps dt: not a sum of small numbers, and it goes on with another dt. In s.
+struct MotionClock {
+  double start = 0, steps = 0, dt = 0;
+
+  double time() const { return start + steps * dt; }
+  void take_step_of(double next) {
+    if (dt != next)
+      *this = {time(), 0, next};
+  }
+};
+
 } // namespace cdem

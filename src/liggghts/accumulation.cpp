@@ -196,58 +196,57 @@ template <class Law> double stored(const cdem::Material &m, double overlap, cons
 
 } // namespace
 
-// The disc of the lower id is the first of a pair, so that both ranks which see a pair compute the same.
+// Of the pair of i and j, on i. The disc of the lower id is the first of a pair, so that both ranks which see a pair
+// compute the same. `numbers`: what the contact remembers, kept if `keeps`.
+template <class Law>
+cdem::Forces<double> Accumulation::force_of_pair(int i, int j, double dt, double of_steps, double *numbers,
+                                                 bool keeps) const {
+  const double *const radius = atom->radius, *const rmass = atom->rmass;
+  const bool first = atom->tag[i] < atom->tag[j];
+  const int a = first ? i : j, b = first ? j : i;
+  const double m = motion->is_wall(i) ? rmass[j] : motion->is_wall(j) ? rmass[i] : cdem::reduced(rmass[i], rmass[j]);
+  const cdem::PairConstants<double> constants{radius[i] + radius[j], 0.5 * (radius[a] - radius[b]),
+                                              cdem::dashpot_scale(m, of_steps)};
+  const auto u = cdem::relative(motion->disc(a), motion->disc(b));
+  double spring = numbers[es];
+  std::array<double, Law::MEMORIES> memory{};
+  if constexpr (Law::MEMORIES > 0)
+    memory[0] = numbers[en];
+  cdem::NoLosses books;
+  const cdem::Forces<double> on_a = Law::force(u, cdem::distance_of(u), constants, {},
+                                               material(atom->type[i], atom->type[j]), dt, spring, memory, books);
+  if (keeps) {
+    numbers[es] = spring;
+    if constexpr (Law::MEMORIES > 0)
+      numbers[en] = memory[0];
+  }
+  return first ? on_a : cdem::opposite(on_a);
+}
+
 template <class Law> void Accumulation::forces(PairGran *pair, bool add_to_computes) {
-  const bool acts = pair->computeflag();
+  const bool acts = pair->computeflag(), tells = pair->cpl() && add_to_computes, tallies = pair->evflag;
   const double dt = acts && pair->shearupdate() ? update->dt : 0;
   const NeighList &list = *pair->list, &histories = *pair->listgranhistory;
-  const int nlocal = atom->nlocal, remembered = pair->dnum(), *const type = atom->type, *const tag = atom->tag;
-  const double *const radius = atom->radius, *const rmass = atom->rmass;
+  const int nlocal = atom->nlocal, remembered = pair->dnum();
   double *const *const x = atom->x, *const *const f = atom->f, *const *const torque = atom->torque;
-  const bool tells = pair->cpl() && add_to_computes, tallies = pair->evflag;
   std::vector<double> of_steps(materials.size());
   for (std::size_t k = 0; k < materials.size(); k++)
     of_steps[k] = cdem::mass_of_steps(materials[k], update->dt, motion->prediction_weight());
 
   for (int ii = 0; ii < list.inum; ii++) {
     const int i = list.ilist[ii];
-    const int *const neighbours = list.firstneigh[i];
     int *const flags = histories.firstneigh[i];
-    double *const history = histories.firstdouble[i];
-    const double xi = x[i][0], yi = x[i][1], ri = radius[i];
-    const bool wall_i = motion->is_wall(i);
     double fx = 0, fy = 0, turn = 0;
     for (int jj = 0; jj < list.numneigh[i]; jj++) {
-      const int j = neighbours[jj] & NEIGHMASK;
-      const double dx = xi - x[j][0], dy = yi - x[j][1], radii = ri + radius[j];
-      if (dx * dx + dy * dy >= radii * radii && !flags[jj])
+      const int j = list.firstneigh[i][jj] & NEIGHMASK;
+      const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], radii = atom->radius[i] + atom->radius[j];
+      if ((dx * dx + dy * dy >= radii * radii && !flags[jj]) || (motion->is_wall(i) && motion->is_wall(j)))
         continue;
-      const bool wall_j = motion->is_wall(j);
-      if (wall_i && wall_j)
-        continue;
-      const int k = type[i] * stride + type[j];
-      const double m = wall_i ? rmass[j] : wall_j ? rmass[i] : cdem::reduced(rmass[i], rmass[j]);
-      const bool first = tag[i] < tag[j];
-      const int a = first ? i : j, b = first ? j : i;
-      const cdem::PairConstants<double> constants{radii, 0.5 * (radius[a] - radius[b]),
-                                                  cdem::dashpot_scale(m, of_steps[k])};
-      const auto u = cdem::relative(motion->disc(a), motion->disc(b));
-      double *const numbers = history + jj * remembered;
-      double spring = numbers[es];
-      std::array<double, Law::MEMORIES> memory{};
-      if constexpr (Law::MEMORIES > 0)
-        memory[0] = numbers[en];
-      cdem::NoLosses books;
-      const cdem::Forces<double> on_a =
-          Law::force(u, cdem::distance_of(u), constants, {}, materials[k], dt, spring, memory, books);
+      const int types = atom->type[i] * stride + atom->type[j];
+      double *const numbers = histories.firstdouble[i] + jj * remembered;
+      const cdem::Forces<double> on_i = force_of_pair<Law>(i, j, dt, of_steps[types], numbers, acts);
       if (acts) {
-        numbers[es] = spring;
-        if constexpr (Law::MEMORIES > 0)
-          numbers[en] = memory[0];
-        flags[jj] = cdem::touched(spring) ? TOUCHES : 0;
-      }
-      const cdem::Forces<double> on_i = first ? on_a : cdem::opposite(on_a);
-      if (acts) {
+        flags[jj] = cdem::touched(numbers[es]) ? TOUCHES : 0;
         fx += on_i.fx, fy += on_i.fy, turn += on_i.torque_a;
         if (j < nlocal)
           f[j][0] -= on_i.fx, f[j][1] -= on_i.fy, torque[j][2] += on_i.torque_b;
@@ -255,8 +254,8 @@ template <class Law> void Accumulation::forces(PairGran *pair, bool add_to_compu
       if (tells)
         tell_computes(pair, *atom, i, j, numbers, on_i);
       if (tallies)
-        pair->ev_tally_xyz(i, j, nlocal, 0, stored<Law>(materials[k], radii - std::hypot(dx, dy), numbers, es, en), 0,
-                           on_i.fx, on_i.fy, 0, dx, dy, 0);
+        pair->ev_tally_xyz(i, j, nlocal, 0, stored<Law>(materials[types], radii - std::hypot(dx, dy), numbers, es, en),
+                           0, on_i.fx, on_i.fy, 0, dx, dy, 0);
     }
     f[i][0] += fx, f[i][1] += fy, torque[i][2] += turn;
   }

@@ -69,13 +69,9 @@ public:
   Sums sums() const;
 
 private:
-  // Of one pair of types.
-  struct PairOfTypes {
-    cdem::Material material;
-    double of_steps; // mass_of_steps(), kg
-  };
-
   template <class Law> void forces(LAMMPS_NS::PairGran *, bool add_to_computes);
+  template <class Law>
+  cdem::Forces<double> force_of_pair(int i, int j, double dt, double of_steps, double *numbers, bool keeps) const;
   void check() const;
 
   const int accumulation;

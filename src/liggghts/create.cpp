@@ -8,6 +8,7 @@
 #include "domain.h"
 
 #include <cmath>
+#include <stdexcept>
 
 using namespace LAMMPS_NS;
 
@@ -15,55 +16,41 @@ namespace Liggghts {
 
 namespace {
 
-struct Disc {
-  double x, y, diameter;
-};
+using Discs = std::vector<cdem::PlacedDisc>;
 
-std::vector<Disc> row(Words &words) {
+double density_of(Words &words) {
+  words.keyword("density");
+  return words.positive("density");
+}
+
+Discs row(Words &words, double &density) {
   const double x1 = words.number("X1"), y1 = words.number("Y1");
   const double x2 = words.number("X2"), y2 = words.number("Y2");
   const int n = words.count("number of discs");
   words.keyword("diameter");
   const double diameter = words.positive("diameter");
-  std::vector<Disc> discs;
-  for (int i = 0; i < n; i++) {
-    const double share = n > 1 ? double(i) / (n - 1) : 0;
-    discs.push_back({x1 + share * (x2 - x1), y1 + share * (y2 - y1), diameter});
-  }
-  return discs;
+  density = density_of(words);
+  return cdem::discs_in_a_row({x1, y1}, {x2, y2}, n, diameter);
 }
 
-// The seed comes last in the command.
-struct Filling {
-  int n;
-  double xlo, xhi, ylo, yhi, smallest, largest, power;
-};
-
-Filling filling(Words &words) {
-  Filling f;
-  f.n = words.count("number of grains");
+Discs fill(LAMMPS *lmp, Words &words, double &density) {
+  cdem::Filling grains{};
+  grains.n = words.count("number of grains");
   words.keyword("region");
-  f.xlo = words.number("XLO"), f.xhi = words.number("XHI");
-  f.ylo = words.number("YLO"), f.yhi = words.number("YHI");
+  grains.xlo = words.number("XLO"), grains.xhi = words.number("XHI");
+  grains.ylo = words.number("YLO"), grains.yhi = words.number("YHI");
   words.keyword("diameter");
-  f.smallest = words.positive("DMIN"), f.largest = words.positive("DMAX");
+  grains.smallest = words.positive("DMIN"), grains.largest = words.positive("DMAX");
   words.keyword("power");
-  f.power = words.number("power");
-  return f;
-}
-
-std::vector<Disc> filled(LAMMPS *lmp, const Filling &f, int seed) {
-  cdem::Random random(seed);
-  const auto diameters = cdem::power_law_diameters(f.n, f.smallest, f.largest, f.power, random);
-  double needed;
-  const auto places = cdem::rows_of_discs(diameters, f.xhi - f.xlo, f.yhi - f.ylo, random, needed);
-  if (places.empty())
-    stop(lmp, "cdem/create: ", f.n, " grains of diameter ", f.smallest, " to ", f.largest, " fill a height of ", needed,
-         "; the region has ", f.yhi - f.ylo);
-  std::vector<Disc> discs;
-  for (int i = 0; i < f.n; i++)
-    discs.push_back({f.xlo + places[i].x, f.ylo + places[i].y, diameters[i]});
-  return discs;
+  grains.power = words.number("power");
+  density = density_of(words);
+  words.keyword("seed");
+  const int seed = words.count("seed");
+  try {
+    return grains.discs(seed);
+  } catch (const std::invalid_argument &bad) {
+    stop(lmp, "cdem/create: ", bad.what());
+  }
 }
 
 bool is_mine(const Domain &domain, const double *centre) {
@@ -75,7 +62,7 @@ bool is_mine(const Domain &domain, const double *centre) {
 
 // Every rank has the list of all discs. It makes those in its own part of the box, and numbers them by their places in
 // the list.
-void make(LAMMPS *lmp, int type, const std::vector<Disc> &discs, double density) {
+void make(LAMMPS *lmp, int type, const Discs &discs, double density) {
   Atom &atom = *lmp->atom;
   int largest = 0;
   for (int i = 0; i < atom.nlocal; i++)
@@ -120,18 +107,8 @@ void create(LAMMPS *lmp, int narg, char **arg) {
   const std::string how = words.word("row or fill");
   if (how != "row" && how != "fill")
     stop(lmp, "cdem/create: ", how, ": must be row or fill");
-  std::vector<Disc> discs;
-  Filling grains{};
-  if (how == "row")
-    discs = row(words);
-  else
-    grains = filling(words);
-  words.keyword("density");
-  const double density = words.positive("density");
-  if (how == "fill") {
-    words.keyword("seed");
-    discs = filled(lmp, grains, words.count("seed"));
-  }
+  double density;
+  const Discs discs = how == "row" ? row(words, density) : fill(lmp, words, density);
   if (!words.done())
     stop(lmp, "cdem/create: unknown word ", words.word("word"));
   make(lmp, type, discs, density);

@@ -6,9 +6,8 @@
 // applied stress is exact; the felt stress differs from it by the inertia of the lid, and while the speed is limited.
 //
 //   SIGMA  normal stress, >= 0 (Pa)      W, T  width and thickness on which it acts, > 0 (m)
-//   V      largest speed of the lid downward, > 0 (m/s). Default: F/sqrt(n kn M), kn the largest normal stiffness, n
-//   the
-//          number of discs: then an impact on a rigid bed is never more than F itself
+//   V      largest speed of the lid downward, > 0 (m/s). Default: F/sqrt(n kn M) with n discs and the largest normal
+//          stiffness kn: then an impact on a rigid bed is never more than F itself
 //
 // Global vector: 1 applied stress (Pa), 2 felt stress = sum of f_y/(W T) (Pa), 3 height of the lower face (m), that is
 // of the lowest point of its discs, 4 velocity (m/s), 5 number of steps in which V limited the velocity, 6 horizontal

@@ -39,10 +39,7 @@ void FixMove::init() {
   now = at_present();
 }
 
-void FixMove::reset_dt() {
-  if (clock.dt != update->dt)
-    clock = {clock.start + clock.steps * clock.dt, 0, update->dt};
-}
+void FixMove::reset_dt() { clock.take_step_of(update->dt); }
 
 void FixMove::initial_integrate(int) {
   clock.steps++;
@@ -67,11 +64,23 @@ double FixMove::compute_vector(int n) {
 void FixMove::write_restart(FILE *file) {
   if (comm->me != 0)
     return;
-  const int size = sizeof clock;
+  const Saved saved{clock, now.s, vertical};
+  const int size = sizeof saved;
   std::fwrite(&size, sizeof size, 1, file);
-  std::fwrite(&clock, sizeof clock, 1, file);
+  std::fwrite(&saved, sizeof saved, 1, file);
 }
 
-void FixMove::restart(char *state) { std::memcpy(&clock, state, sizeof clock); }
+void FixMove::restart(char *state) {
+  Saved saved;
+  std::memcpy(&saved, state, sizeof saved);
+  if (path.speed == 0)
+    return;
+  clock = saved.clock;
+  now = at_present();
+  if (now.s != saved.s || (now.s != 0 && vertical != bool(saved.vertical)))
+    stop(lmp, "Fix cdem/move ", id, ": in the restart file the wall has moved by ", saved.s, " m along ",
+         saved.vertical ? "y" : "x", " in ", clock.time(), " s; by this speed, ramp, stop and dir it would be ", now.s,
+         " m along ", vertical ? "y" : "x", ": give those it had");
+}
 
 } // namespace Liggghts

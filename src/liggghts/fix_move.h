@@ -8,7 +8,8 @@
 //   S  distance at which to stop, > 0 (m, default: none)
 //
 // Global vector: 1 displacement s (m), 2 speed (m/s), 3 and 4 force f_x and f_y that the grains exert on the wall (N).
-// The time is in restart files: a fix of the same ID goes on.
+// The time is in restart files: a fix of the same ID goes on. A motion by which the wall would be elsewhere by now is
+// refused: one with another V, T or direction, or with another S after the wall has stopped.
 #pragma once
 
 #include "core/ramped_motion.h"
@@ -32,18 +33,19 @@ public:
 private:
   enum Output { DISPLACEMENT, SPEED, FORCE_X, FORCE_Y, NOUTPUTS };
 
-  // The time is start + steps dt: not a sum of small numbers.
-  struct Clock {
-    double start, steps, dt;
+  struct Saved {
+    cdem::MotionClock clock;
+    double s; // m
+    int vertical;
   };
 
-  cdem::RampedMotion::State at_present() const { return path.at(clock.start + clock.steps * clock.dt); }
+  cdem::RampedMotion::State at_present() const { return path.at(clock.time()); }
   Vector along(double amount) const { return vertical ? Vector{0, amount} : Vector{amount, 0}; }
   void apply() const { set_motion(along(now.speed), along(now.acceleration)); }
 
   cdem::RampedMotion path;
   bool vertical = false;
-  Clock clock{0, 0, 0};
+  cdem::MotionClock clock;
   cdem::RampedMotion::State now{0, 0, 0};
 };
 

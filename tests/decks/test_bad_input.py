@@ -153,6 +153,7 @@ CASES: dict[str, tuple[str, str, str]] = {
     "a disc outside of the box": ("row -0.01 -0.01", "row -0.03 -0.01", r"cdem/create: disc centre x = -0.03 is outside"),
     "diameter zero": ("6 diameter 0.004", "6 diameter 0", r"cdem/create: .* 0: must be positive"),
     "diameters the wrong way round": ("0.002 0.004 power", "0.004 0.002 power", r"cdem/create: diameter 0.004 0.002"),
+    "grains wider than the region": ("0.002 0.004 power", "0.002 0.4 power", r"grains of diameter 0.4 do not fit in the width 0.02"),
     "density negative": ("0.004 density 26.5\ncdem/create   1", "0.004 density -26.5\ncdem/create   1", r"cdem/create: .*-26.5"),
     "region turned inside out": ("-0.01 0.01 -0.007 0.01", "0.01 -0.01 -0.007 0.01", r"cdem/create: region 0.01 -0.01"),
     "seed zero": ("seed 7", "seed 0", r"cdem/create: seed 0"),

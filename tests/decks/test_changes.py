@@ -117,6 +117,18 @@ def test_after_a_change_a_run_is_as_one_from_a_data_file(tmp_path: Path, change:
         assert went_on[column] == pytest.approx(anew[column], abs=tolerance * size), column
 
 
+def test_what_pair_style_does_not_name_is_the_default_again(tmp_path: Path) -> None:
+    """Without limit_damping the dashpot pulls as a contact opens, whatever an earlier pair_style said."""
+    deck = "include ${decks}/start.in\nfix move grains cdem/integrate\ntimestep 1e-7\nAGAIN\nrun 300\ninclude ${decks}/end.in\n"
+    again = "pair_style cdem law direct\npair_coeff * * 1e8 2.5e7 0.5 0.5 0"
+    discs = [Disc(-0.00201, 0, vx=1), Disc(0.00201, 0, vx=-1)]
+    speeds = [
+        run(deck.replace("AGAIN", change), tmp_path / str(k), discs=discs, hn=0.5, hs=0.5, phi=0, cut=cut).end["vx"][1]
+        for k, (cut, change) in enumerate([("no", ""), ("yes", again), ("yes", "")])
+    ]
+    assert speeds[0] == speeds[1] < speeds[2]
+
+
 MINI = (DECKS / "mini_box.in").read_text()
 COLUMNS = ("id", "x", "y", "vx", "vy", "omegaz", "fx", "fy", "tqz", "f_move[1]", "f_move[2]", "f_move[3]", "f_move[4]")
 NOTHING = {

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -68,3 +69,19 @@ print "grains = $(count(all))"
 """
     for ranks in (1, 2, 4):
         assert run(deck, tmp_path / str(ranks), ranks=ranks).printed("grains") == 60
+    tip = "cdem/create 1 row 0.034 0.039 0.034 0.039 1 diameter 0.001 density 26.5\nprint"
+    assert run(deck.replace("print", tip), tmp_path / "tip").printed("grains") == 61  # the side is at 0.0349 there
+    status, output = start(deck.replace("print", tip.replace("0.034", "0.036")), tmp_path / "beyond")
+    assert status != 0
+    assert re.search(
+        "cdem/create: disc centre x = 1.0[0-9]* is outside of the box, 0 to 1 in shares of its tilted", output
+    )
+
+
+@pytest.mark.parametrize(("seed", "works"), [(2147483647, True), (2147483648, False), (10**30, False)])
+def test_a_seed_is_an_integer_of_32_bits(tmp_path: Path, seed: int, works: bool) -> None:
+    fill = f"cdem/create 1 fill 3 region -0.01 0.01 0.001 0.01 diameter 0.002 0.003 power -1 density 26.5 seed {seed}\n"
+    run("include ${decks}/start.in\n", tmp_path, discs=DISCS)
+    status, output = start("include ${decks}/start.in\n" + fill, tmp_path)
+    assert (status == 0) == works
+    assert works or f"cdem/create: seed is {seed}, must be an integer from -2147483648 to 2147483647" in output

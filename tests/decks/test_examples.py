@@ -18,6 +18,17 @@ def example(case: str, folder: Path, **variables: Any) -> Run:
     return run(f"include {EXAMPLES}/{case}/{case}.in\n", folder, **variables)
 
 
+def test_the_lines_that_the_manual_asks_for_are_a_deck(tmp_path: Path) -> None:
+    text = (DECKS.parents[1] / "manual" / "decks.md").read_text(encoding="utf-8")
+    found = re.search(r"need these lines.*?```text\n(.*?)```", text, re.S)
+    assert found
+    box = "region box block 0 0.1 0 0.1 -0.01 0.01\ncreate_box 1 box\n"
+    grains = "cdem/create 1 row 0.01 0.01 0.09 0.09 9 diameter 4e-3 density 26.5\ngroup grains type 1\n"
+    deck = "boundary f f p\nunits si\n" + found[1].replace("fix          shape", box + "fix shape", 1)
+    deck = deck.replace("pair_style", grains + "pair_style", 1)
+    assert run(deck + 'run 10\nprint "n = $(count(grains))"\n', tmp_path).printed("n") == 9
+
+
 def table(path: Path) -> dict[str, np.ndarray]:
     with path.open() as stream:
         names = stream.readline().lstrip("# ").split()

@@ -105,7 +105,7 @@ def test_automatic_time_step(tmp_path: Path, ranks: int, largest: float) -> None
 CONTACTS = """
 if "${plan} == begin" then "include ${decks}/start.in" &
 else "newton off" "read_restart touching.restart" "pair_coeff * * ${kn} 0 ${hn} 0 27"
-fix ${id} grains cdem/integrate dt contacts ${largest}
+fix ${id} grains cdem/integrate dt ${rule} ${largest}
 variable limit equal f_${id}
 thermo_style custom step dt v_limit
 thermo_modify format float %.17g
@@ -126,8 +126,16 @@ def pair_limit(kn: float, h: float) -> float:
 def step_of_contacts(directory: Path, gap: float, h: float = 0.215, **variables: Any) -> tuple[list[float], float]:
     """Time steps of a run with contacts and one without, and the limit of the worst packing."""
     discs = [Disc(-0.002 - gap / 2, 0), Disc(0.002 + gap / 2, 0)]
-    options: dict[str, Any] = {"ks": 0, "hn": h, "hs": 0, "id": "move", "largest": 1, "plan": "begin"} | variables
-    thermo = run(CONTACTS, directory, discs=discs, **options).thermo
+    options: dict[str, Any] = {
+        "ks": 0,
+        "hn": h,
+        "hs": 0,
+        "id": "move",
+        "largest": 1,
+        "plan": "begin",
+        "rule": "contacts",
+    }
+    thermo = run(CONTACTS, directory, discs=discs, **(options | variables)).thermo
     return list(thermo["Dt"]), thermo["v_limit"][0]
 
 
@@ -156,6 +164,15 @@ def test_time_step_of_the_contacts_goes_on(tmp_path: Path, ranks: int) -> None:
     assert set(step_of_contacts(tmp_path, -1e-6, **other)[0]) == {first[0]}
     fresh, _ = step_of_contacts(tmp_path, -1e-6, **other, id="anew")
     assert fresh[0] == pytest.approx(0.8 * pair_limit(KN / 4, 0.215), rel=1e-9)
+
+
+def test_what_is_asked_for_counts_before_the_step_of_the_contacts(tmp_path: Path) -> None:
+    """After a restart, too: dt auto chooses by the worst packing, and a maximum is one."""
+    step_of_contacts(tmp_path, -1e-6)
+    steps, limit = step_of_contacts(tmp_path, -1e-6, plan="go", kn=KN, rule="auto")
+    assert steps == pytest.approx([0.9 * limit] * 2, rel=1e-12)
+    step_of_contacts(tmp_path, -1e-6)
+    assert step_of_contacts(tmp_path, -1e-6, plan="go", kn=KN, largest=1e-7)[0] == [1e-7, 1e-7]
 
 
 CHOSEN = """

@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
-from engine import DECKS, Disc, run
+from engine import DECKS, Disc, run, start
 from scenes import mini_box
 
 KN = 1e8
@@ -182,6 +183,50 @@ def test_prescribed_displacement(tmp_path: Path, ranks: int, direction: str, spe
     assert out.series("wall.dump", f"v{direction}")[1:] == pytest.approx(np.tile(v[1:, None], len(walls)), abs=1e-12)
     assert np.all(out.series("wall.dump", f"v{across}") == 0)
     assert abs(out.thermo["f_wall[1]"][-1]) == pytest.approx(stop, abs=2**-51)  # as exactly as the multiples allow
+
+
+GO_ON = """
+newton off
+processors ${px} ${py} 1
+read_restart moved.restart
+comm_modify vel yes
+fix move grains cdem/integrate dt any
+fix wall walls cdem/move ${motion}
+thermo_style custom step f_wall[1]
+thermo_modify format float %.17g
+run 100
+"""
+MOVED = MOVE.replace("run 600", "run 200\nwrite_restart moved.restart")  # 200 us, 350 um
+
+
+@pytest.mark.parametrize(
+    ("motion", "end"),
+    [
+        ("speed 2 ramp 5e-5 stop 8e-4", 5.5e-4),
+        ("speed 2 ramp 5e-5 stop 4e-4", 4e-4),
+        ("speed 2 ramp 5e-5", 5.5e-4),
+        ("speed 0", 0),
+    ],
+)
+def test_a_motion_goes_on_from_a_restart_file(tmp_path: Path, motion: str, end: float) -> None:
+    """On its own path; where it stops may be changed as long as it moves. A wall at rest has no motion."""
+    discs = [Disc(0.017, 0.017, 1e-3), Disc(0, 0, D, type=2)]
+    run(MOVED, tmp_path, discs=discs, speed=2, dir="x", ramp=5e-5, stop=8e-4)
+    assert run(GO_ON, tmp_path, motion=motion).thermo["f_wall[1]"][-1] == pytest.approx(end, abs=2**-50)
+
+
+@pytest.mark.parametrize(
+    "motion", ["speed 1 ramp 5e-5", "speed 2", "speed 2 ramp 5e-5 dir y", "speed 2 ramp 5e-5 stop 2e-4"]
+)
+def test_a_path_on_which_a_wall_is_not_is_refused(tmp_path: Path, motion: str) -> None:
+    """It would jump there, or its displacement would."""
+    discs = [Disc(0.017, 0.017, 1e-3), Disc(0, 0, D, type=2)]
+    run(MOVED, tmp_path, discs=discs, speed=2, dir="x", ramp=5e-5, stop=8e-4)
+    status, output = start(GO_ON, tmp_path, motion=motion)
+    assert status != 0
+    assert re.search(
+        r"Fix cdem/move wall: in the restart file the wall has moved by 0.00035\d* m along x in 0.0002 s", output
+    )
 
 
 def test_forces_on_the_walls_sum_to_the_whole(tmp_path: Path, law: str, ranks: int) -> None:

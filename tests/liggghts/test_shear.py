@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from host import Disc, Frame, engine
+from host import HERE, Disc, Frame, engine
 from host import run as run_discs
 from host import start
 from same_grains import INPUT, consolidated, hand_over, run, sheared
@@ -49,6 +49,56 @@ def test_a_travel_beyond_the_flanges_is_refused(tmp_path: Path, grains: Frame) -
     found = re.search(r"ERROR: .* travel at most (\d+) um", output)
     assert found and 7500 <= int(found[1]) <= 12000
     assert not (tmp_path / "shear.dat").exists()
+
+
+@pytest.mark.parametrize(
+    ("variables", "error"),
+    [
+        ({"model": "TypeA_10x5_2-4_3-circle_350"}, "shape triple, phi_packing 0: here grains are single discs"),
+        ({"phi_packing": 45}, "shape single, phi_packing 45: here grains are single discs, packed without friction"),
+        ({"shape": "discs 2 0 0 1 1 0 1"}, "Illegal variable command"),
+    ],
+)
+def test_what_cannot_be_packed_is_refused(tmp_path: Path, variables: dict[str, Any], error: str) -> None:
+    options: dict[str, Any] = {"decks": INPUT / "liggghts"} | variables
+    _, output = start("include ${decks}/pack.in", tmp_path, **options)
+    assert error in output
+    assert not (tmp_path / "packed.csv").exists() and "Created 350 discs" not in output
+
+
+@pytest.mark.parametrize(
+    ("region", "error"),
+    [
+        ("0 0.02 0 0.02 diameter 0.004 0.002", "diameter 0.004 0.002: must be DMIN <= DMAX"),
+        ("0 0.02 0 0.02 diameter 0.002 0.03", "grains of diameter 0.03 do not fit in the width 0.02 of the region"),
+        ("0.02 0 0 0.02 diameter 0.002 0.004", "region 0.02 0 0 0.02: must be XLO < XHI, YLO < YHI"),
+        ("0 0.02 0 0.002 diameter 0.002 0.004", "fill a height of"),
+    ],
+)
+def test_grains_that_cannot_be_made_are_refused(tmp_path: Path, region: str, error: str) -> None:
+    fill = f"cdem/create 1 fill 20 region {region} power 0 density 26.5 seed 1\n"
+    run_discs("include ${decks}/start.in\n", tmp_path, [Disc(0, 0)])
+    status, output = start("include ${decks}/start.in\n" + fill, tmp_path)
+    assert status != 0 and f"cdem/create: {error}" in output.replace("20 grains of diameter 0.002 to 0.004 ", "")
+
+
+@pytest.mark.parametrize(
+    ("motion", "works"), [("0.5", True), ("0.5 stop 1", True), ("0.4", False), ("0.5 dir y", False)]
+)
+def test_a_wall_goes_on_from_a_restart_file_on_its_path_alone(tmp_path: Path, motion: str, works: bool) -> None:
+    begin = (HERE / "start.in").read_text(encoding="utf-8")
+    data = "read_data    discs.data\nset          group all density 26.5\n"
+    assert data in begin
+    fixes = "fix move grains cdem/integrate dt any\nfix floor walls cdem/move speed {}\ntimestep 1e-6\nrun 100\n"
+    discs = [Disc(0, 0.01), Disc(0, 0, type=2)]
+    run_discs(begin + fixes.format("0.5") + "write_restart moved.restart\n", tmp_path, discs)
+    go_on = begin.replace(data, "read_restart moved.restart\n") + fixes.format(motion)
+    status, output = start(go_on + 'print "s = $(f_floor[1])"\n', tmp_path)
+    if works:
+        assert "s = 0.0001\n" in output or "s = 9.99" in output
+    else:
+        assert status != 0
+        assert "Fix cdem/move floor: in the restart file the wall has moved by 5e-05 m along x in 0.0001 s" in output
 
 
 def test_packing_and_consolidation_end_at_rest(tmp_path: Path) -> None:

@@ -303,7 +303,8 @@ TEST(GrainShape, BadTemplatesAreNamed) {
   EXPECT_EQ(refusal({{0, 0, 1}, {2, 0, 1}, {0, 0, 1}}), "disc 1 is a duplicate of, or lies inside, disc 3");
   EXPECT_EQ(refusal({{0, 0, 1}, {0.3, 0.2, 0.5}}), "disc 2 is a duplicate of, or lies inside, disc 1");
   EXPECT_EQ(refusal({{0, 0, 1}, {0.03, 0, 1}, {0.04, 0, 0.995}}),
-            "disc 3 is hardly another than disc 2: both would bear all contacts");
+            "disc 3 nearly coincides with disc 2: distance of centres and difference of radii"
+            " must add up to 2 % of the smaller radius");
   EXPECT_EQ(refusal({{0, 0, 1}, {0.021, 0, 1}, {1, 0, 1}, {1.03, 0, 0.98}}), "none"); // one sticks out of the other
   EXPECT_EQ(refusal({{0, 0, 1}, {2, 0, 1}, {5, 0, 1}, {7, 0, 1}}), "disc 3 is disconnected from disc 1");
   EXPECT_EQ(refusal({{0, 0, 1}, {2.001, 0, 1}}), "disc 2 is disconnected from disc 1");

@@ -53,7 +53,7 @@ void DiscPairList::remember_numbers() {
 }
 
 void DiscPairList::exchange_ghosts() {
-  if (atom->nghost || comm->nprocs > 1)
+  if (rows.has_ghosts() || comm->nprocs > 1)
     Shearbox::forward_comm(lmp, carrier);
   rows.expand_ghosts();
 }
@@ -450,9 +450,10 @@ const cdem::PairForce &DiscPairList::force(int k) const {
   return pairs.force[k];
 }
 
+// Grains that arrive in this step have no rows yet, and may have taken the place of ghosts among the atoms.
 void DiscPairList::close_list() {
   if (audit && has_history) {
-    rows.fill(0, atom->nlocal, 0);
+    rows.fill(0, block_starts.back(), 0);
     exchange_ghosts();
     finish_step_in_books();
   }

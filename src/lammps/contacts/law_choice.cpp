@@ -45,13 +45,14 @@ std::vector<std::string> addition_names() {
   return names;
 }
 
-// The bit of an addition in ContactRules::additions; 0 if there is none of this name.
-int place_of_law(const std::string &name) {
+// The place of a law in accumulation_names(); -1 if there is none of this name.
+int index_of_accumulation(const std::string &name) {
   const std::vector<std::string> all = cdem::accumulation_names();
   const auto found = std::find(all.begin(), all.end(), name);
   return found == all.end() ? -1 : int(found - all.begin());
 }
 
+// The bit of an addition in ContactRules::additions; 0 if there is none of this name.
 unsigned bit_of_addition(const std::string &name) {
   const std::vector<std::string> all = addition_names();
   const auto found = std::find(all.begin(), all.end(), name);
@@ -65,11 +66,12 @@ LawChoice::LawChoice(LAMMPS *lmp) : Pointers(lmp), instructions(cdem::instructio
 void LawChoice::read_style(int narg, char **arg) {
   bool law_given = false;
   instructions = cdem::instruction_sets().front();
+  rules.limit_damping = false;
   const std::vector<std::string> laws = cdem::accumulation_names();
   for (int k = 0; k < narg; k += 2) {
     const std::string key = arg[k], value = k + 1 < narg ? arg[k + 1] : "nothing";
     if (key == "law") {
-      rules.accumulation = place_of_law(value);
+      rules.accumulation = index_of_accumulation(value);
       if (rules.accumulation < 0)
         error->all(FLERR, "Pair style cdem: law {}: must be {}", value, joined(laws, " or "));
       law_given = true;
@@ -199,7 +201,7 @@ void LawChoice::take_text(const std::string &all, int **is_set) {
     words >> key;
     if (key == "law") {
       words >> word;
-      rules.accumulation = place_of_law(word);
+      rules.accumulation = index_of_accumulation(word);
       if (rules.accumulation < 0)
         refuse_file("it has law " + word);
     } else if (key == "limit_damping") {

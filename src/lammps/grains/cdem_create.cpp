@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "grains/cdem_create.h"
 
-#include "core/fill.h"
 #include "grains/fix_cdem_shape.h"
 #include "host/compat.h"
 
@@ -13,7 +12,8 @@
 #include "utils.h"
 
 #include <algorithm>
-#include <cmath>
+#include <stdexcept>
+#include <string>
 
 using namespace LAMMPS_NS;
 
@@ -52,47 +52,28 @@ std::vector<CDEMCreate::Disc> CDEMCreate::row(Words &words) {
   words.keyword("diameter");
   const double diameter = words.positive("diameter");
   read_density(words);
-  std::vector<Disc> discs;
-  for (int i = 0; i < n; i++) {
-    const double share = n > 1 ? double(i) / (n - 1) : 0;
-    discs.push_back({x1 + share * (x2 - x1), y1 + share * (y2 - y1), diameter});
-  }
-  return discs;
+  return cdem::discs_in_a_row({x1, y1}, {x2, y2}, n, diameter);
 }
 
 std::vector<CDEMCreate::Disc> CDEMCreate::fill(Words &words) {
-  const int n = words.count("number of grains");
+  cdem::Filling grains{};
+  grains.n = words.count("number of grains");
   words.keyword("region");
-  const double xlo = words.number("XLO"), xhi = words.number("XHI");
-  const double ylo = words.number("YLO"), yhi = words.number("YHI");
-  if (!(xlo < xhi && ylo < yhi))
-    error->all(FLERR, "cdem/create: region {} {} {} {}: must be XLO < XHI, YLO < YHI", xlo, xhi, ylo, yhi);
+  grains.xlo = words.number("XLO"), grains.xhi = words.number("XHI");
+  grains.ylo = words.number("YLO"), grains.yhi = words.number("YHI");
   words.keyword("diameter");
-  const double smallest = words.positive("DMIN"), largest = words.positive("DMAX");
-  if (smallest > largest)
-    error->all(FLERR, "cdem/create: diameter {} {}: must be DMIN <= DMAX", smallest, largest);
-  if (largest > xhi - xlo)
-    error->all(FLERR, "cdem/create: grains of diameter {} do not fit in the width {} of the region", largest,
-               xhi - xlo);
+  grains.smallest = words.positive("DMIN"), grains.largest = words.positive("DMAX");
   words.keyword("power");
-  const double power = words.number("power");
-  if (!std::isfinite(power))
-    error->all(FLERR, "cdem/create: power {}: must be a number", power);
+  grains.power = words.number("power");
   read_density(words);
   words.keyword("seed");
-  cdem::Random random(words.count("seed"));
-
-  const auto diameters = cdem::power_law_diameters(n, smallest, largest, power, random);
-  double needed;
-  const auto places = cdem::rows_of_discs(diameters, xhi - xlo, yhi - ylo, random, needed);
-  if (places.empty())
-    error->all(FLERR,
-               "cdem/create: {} grains of diameter {} to {} fill a height of {} in the width {}; the region has {}", n,
-               smallest, largest, needed, xhi - xlo, yhi - ylo);
-  std::vector<Disc> discs;
-  for (int i = 0; i < n; i++)
-    discs.push_back({xlo + places[i].x, ylo + places[i].y, diameters[i]});
-  return discs;
+  const int seed = words.count("seed");
+  try {
+    return grains.discs(seed);
+  } catch (const std::invalid_argument &bad) {
+    error->all(FLERR, "cdem/create: {}", bad.what());
+  }
+  return {};
 }
 
 void CDEMCreate::read_density(Words &words) {
@@ -100,21 +81,28 @@ void CDEMCreate::read_density(Words &words) {
   density = words.positive("density");
 }
 
+// Of the centre: in a tilted box, the shares of its sides.
+std::array<double, 3> CDEMCreate::coordinates(const Disc &disc) const {
+  std::array<double, 3> centre{disc.x, disc.y, 0};
+  if (domain->triclinic)
+    domain->x2lamda(centre.data(), centre.data());
+  return centre;
+}
+
 void CDEMCreate::check(const Disc &disc) const {
-  const double centre[3] = {disc.x, disc.y, 0};
+  const auto centre = coordinates(disc);
+  const double *const low = domain->triclinic ? domain->boxlo_lamda : domain->boxlo;
+  const double *const high = domain->triclinic ? domain->boxhi_lamda : domain->boxhi;
   for (int k = 0; k < 3; k++)
-    if (!(centre[k] >= domain->boxlo[k] && centre[k] < domain->boxhi[k]))
-      error->all(FLERR, "cdem/create: disc centre {} = {} is outside of the box, {} to {}", "xyz"[k], centre[k],
-                 domain -> boxlo[k], domain -> boxhi[k]);
+    if (!(centre[k] >= low[k] && centre[k] < high[k]))
+      error->all(FLERR, "cdem/create: disc centre {} = {} is outside of the box, {} to {}{}", "xyz"[k], centre[k],
+                 low[k], high[k], domain -> triclinic ? " in shares of its tilted sides" : "");
 }
 
 bool CDEMCreate::is_mine(const Disc &disc) const {
-  double centre[3] = {disc.x, disc.y, 0};
-  const double *low = domain->sublo, *high = domain->subhi;
-  if (domain->triclinic) {
-    domain->x2lamda(centre, centre);
-    low = domain->sublo_lamda, high = domain->subhi_lamda;
-  }
+  const auto centre = coordinates(disc);
+  const double *const low = domain->triclinic ? domain->sublo_lamda : domain->sublo;
+  const double *const high = domain->triclinic ? domain->subhi_lamda : domain->subhi;
   for (int k = 0; k < 3; k++)
     if (!(centre[k] >= low[k] && centre[k] < high[k]))
       return false;

@@ -18,11 +18,12 @@
 // ranks.
 #pragma once
 
+#include "core/fill.h"
 #include "host/deck_words.h"
 
 #include "command.h"
 
-#include <string>
+#include <array>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -33,10 +34,7 @@ public:
   void command(int, char **) override;
 
 private:
-  struct Disc {
-    double x, y, diameter;
-  };
-
+  using Disc = cdem::PlacedDisc;
   using Words = Shearbox::DeckWords;
 
   std::vector<Disc> row(Words &);
@@ -44,6 +42,7 @@ private:
   void read_density(Words &);
   void check(const Disc &) const;
   bool is_mine(const Disc &) const;
+  std::array<double, 3> coordinates(const Disc &) const;
   void create(const std::vector<Disc> &);
 
   int type = 0;

@@ -7,7 +7,8 @@
 //   TEMPLATE  single               a disc
 //             triple               three equal discs, each touching the other two
 //             discs N x y r ...    N discs, at most 1000, in any unit, about any origin. They may overlap and must be
-//                                  connected; none may lie inside another, or be another but for 2 % of its radius
+//                                  connected; none may lie inside another or nearly coincide with it: the distance of
+//                                  the centres and the difference of the radii must add up to 2 % of the smaller one
 //             file NAME            the same from a file with a line "x y r" per disc; # starts a comment
 //             line UX UY           not a grain: a piece of a straight, smooth wall along the vector (UX, UY)
 //   folder    where the files of the templates that follow are (default: the current folder)

@@ -27,24 +27,23 @@ void GrainRows::init(FixCDEMGrains *fix, const cdem::Kernels &fastest) {
 }
 
 void GrainRows::map() {
-  const int nall = atom->nlocal + atom->nghost;
-  grains.resize(nall);
+  own = atom->nlocal, all = own + atom->nghost;
+  grains.resize(all);
   radii.clear();
   if (clumps)
     map_clumps();
   else if (lines)
-    for (int i = 0; i < nall; i++)
+    for (int i = 0; i < all; i++)
       radii.push_back(atom->radius[i] * shapes[atom->type[i]]->discs().front().r);
   make_feet({});
 }
 
 void GrainRows::map_clumps() {
-  const int nall = atom->nlocal + atom->nghost;
-  bodies.resize(nall);
-  first_row.resize(nall + 1);
+  bodies.resize(all);
+  first_row.resize(all + 1);
   grain_of_row.clear();
   offsets.clear();
-  for (int i = 0; i < nall; i++) {
+  for (int i = 0; i < all; i++) {
     first_row[i] = int(grain_of_row.size());
     for (const auto &disc : shapes[atom->type[i]]->discs()) {
       grain_of_row.push_back(i);
@@ -52,12 +51,12 @@ void GrainRows::map_clumps() {
       radii.push_back(atom->radius[i] * disc.r);
     }
   }
-  first_row[nall] = int(grain_of_row.size());
+  first_row[all] = int(grain_of_row.size());
 }
 
 void GrainRows::make_feet(std::vector<int> pieces) {
   piece_of_foot = std::move(pieces);
-  first_foot = rows_of(atom->nlocal + atom->nghost);
+  first_foot = rows_of(all);
   (clumps ? disc_rows : grains).resize(first_foot + piece_of_foot.size());
 }
 
@@ -125,7 +124,7 @@ cdem::ClumpColumns GrainRows::columns() {
   return {grains.data(), bodies.data(), first_row.data(), disc_rows.data(), offsets.data(), sums.data(), first_summed};
 }
 
-void GrainRows::expand_ghosts() { expand(atom->nlocal, atom->nlocal + atom->nghost); }
+void GrainRows::expand_ghosts() { expand(own, all); }
 
 void GrainRows::expand(int begin, int end) {
   if (clumps)

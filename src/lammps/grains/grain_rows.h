@@ -36,6 +36,7 @@ public:
   // Rows are in the order of the atoms; rows_of(n) is the number of rows of the first n. If all grains are single
   // discs, row i is that of atom i.
   int rows_of(int natoms) const { return clumps ? first_row[natoms] : natoms; }
+  bool has_ghosts() const { return all > own; }
   int grain(int row) const {
     const int r = row_or_piece(row);
     return clumps ? grain_of_row[r] : r;
@@ -105,8 +106,9 @@ private:
 
   FixCDEMGrains *states = nullptr;
   cdem::Kernels kernels{};
-  bool clumps = false;                          // whether any type has more than one disc
-  bool lines = false;                           // whether any type is a piece of a line
+  int own = 0, all = 0; // grains that have rows, less and with ghosts; atoms may have arrived since
+  bool clumps = false;  // whether any type has more than one disc
+  bool lines = false;   // whether any type is a piece of a line
   std::vector<const cdem::GrainShape *> shapes; // by type
   std::vector<int> first_row, grain_of_row;     // empty unless clumps
   int first_foot = 0;                           // rows from here on are feet

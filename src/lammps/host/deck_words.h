@@ -6,6 +6,7 @@
 #include "lammps.h"
 #include "utils.h"
 
+#include <climits>
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -67,9 +68,10 @@ public:
   }
   int integer(const std::string &what) {
     const std::string w = value(what);
-    if (!LAMMPS_NS::utils::is_integer(w) || w.size() > 9)
-      lmp->error->all(FLERR, "{}: {} is {}, must be an integer of at most 9 digits", who, what, w);
-    return std::stoi(w);
+    const long long value = LAMMPS_NS::utils::is_integer(w) ? std::strtoll(w.c_str(), nullptr, 10) : LLONG_MAX;
+    if (value < INT_MIN || value > INT_MAX)
+      lmp->error->all(FLERR, "{}: {} is {}, must be an integer from {} to {}", who, what, w, INT_MIN, INT_MAX);
+    return int(value);
   }
   int count(const std::string &what) {
     const int n = integer(what);

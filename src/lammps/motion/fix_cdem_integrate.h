@@ -17,7 +17,7 @@
 //   dt contacts MAX
 //                set it to the smaller of MAX and 0.8 x the limit of the present contacts (compute cdem/limit),
 //                for a packing that is at rest and will not become much denser. Without any contact, the step is that
-//                of dt auto. It is chosen when the first run begins, and kept from then on: a fix with the same ID that
+//                of dt auto. It is chosen as the first run with contacts begins, and kept: a fix with the same ID that
 //                continues from a restart file has the same step
 //   gravity      acceleration of the grains (m/s^2, default 0 0)
 //   drag         of a medium at rest: force -m v/T on each grain, T > 0 (s, default: none); v is the velocity of the

@@ -71,13 +71,9 @@ void FixCDEMMove::init() {
   apply();
 }
 
-void FixCDEMMove::reset_dt() {
-  if (clock.dt == update->dt)
-    return;
-  clock = {clock.start + clock.steps * clock.dt, 0, update->dt};
-}
+void FixCDEMMove::reset_dt() { clock.take_step_of(update->dt); }
 
-FixCDEMMove::Motion FixCDEMMove::motion() const { return path.at(clock.start + clock.steps * clock.dt); }
+FixCDEMMove::Motion FixCDEMMove::motion() const { return path.at(clock.time()); }
 
 WallBody::Vector FixCDEMMove::along(double amount) const { return vertical ? Vector{0, amount} : Vector{amount, 0}; }
 
@@ -124,11 +120,22 @@ double FixCDEMMove::compute_vector(int n) {
 
 void FixCDEMMove::write_restart(FILE *fp) {
   if (comm->me == 0)
-    Shearbox::write_state(fp, Saved{clock, booked});
+    Shearbox::write_state(fp, Saved{clock, now.s, vertical, booked});
 }
 
 void FixCDEMMove::restart(char *buf) {
   const auto saved = Shearbox::read_state<Saved>(lmp, style, buf);
-  clock = saved.clock;
   booked = saved.booked;
+  if (path.speed == 0)
+    return;
+  clock = saved.clock;
+  now = motion();
+  if (now.s != saved.s || (now.s != 0 && vertical != saved.vertical))
+    error->all(
+        FLERR,
+        "Fix cdem/move {}: in the restart file the wall has moved by {:.9g} m along {} in {:.9g} s; by this speed, "
+        "ramp, "
+        "stop and dir it would be {:.9g} m along {}: give those it had; to move anew, define fix {} with speed 0 and "
+        "unfix it before",
+        id, saved.s, saved.vertical ? "y" : "x", clock.time(), now.s, vertical ? "y" : "x", id);
 }

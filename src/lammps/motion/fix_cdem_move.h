@@ -18,7 +18,9 @@
 // s follows the closed form, not a sum of steps. It is rounded to a multiple of 2^-50 m. This is not finer than the
 // last bit of a coordinate below 8 m, so increments add up without rounding errors, and the discs keep their distances.
 // Runs continued from restart files give the same bits. The fix must have the ID that it had then: a wall that moves
-// under another ID, while the state of such a fix is left in the file, is refused when the run begins.
+// under another ID, while the state of such a fix is left in the file, is refused when the run begins. So is, at once,
+// a motion by which the wall would be elsewhere by now: one with another V, T or direction, or with another S after the
+// wall has stopped.
 #pragma once
 
 #include "core/ramped_motion.h"
@@ -48,16 +50,13 @@ private:
   void refuse_other_id() const;
 
   using Motion = cdem::RampedMotion::State;
-  // The time is start + steps dt: not a sum of small numbers, and a run can be continued with another dt. In s.
-  struct Clock {
-    double start, steps, dt;
-  };
-
   enum Output { DISPLACEMENT, SPEED, FORCE_X, FORCE_Y, NOUTPUTS };
 
   struct Saved {
-    static constexpr int VERSION = 2;
-    Clock clock;
+    static constexpr int VERSION = 3;
+    cdem::MotionClock clock;
+    double s; // m
+    bool vertical;
     Booked booked;
   };
 
@@ -68,7 +67,7 @@ private:
 
   cdem::RampedMotion path;
   bool vertical = false;
-  Clock clock{0, 0, 0};
+  cdem::MotionClock clock;
   Motion now{0, 0, 0};
   std::vector<std::string> left; // ids of such fixes in the restart file, when this one was made
 };

@@ -73,8 +73,9 @@ template <class Value> double StepChoice::scene_minimum(Value value) const {
 }
 
 void StepChoice::apply() {
+  const bool keeps = rule == Rule::contacts && kept_step > 0;
   if (chooses())
-    set_step(kept_step > 0 ? kept_step : at_most_max(OF_WORST_PACKING * limit));
+    set_step(at_most_max(keeps ? kept_step : OF_WORST_PACKING * limit));
   check();
 }
 
