@@ -230,6 +230,18 @@ def test_rows_lost_in_a_power_cut_are_missed(stopped: Phase, rows: int, taken: t
         assert "shear.dat has no row of that step" in notes[0]
 
 
+@pytest.mark.parametrize("tail", [b"\0" * 500, b"1", b"no number"])
+def test_a_torn_row_is_cut_off(stopped: Phase, tail: bytes) -> None:
+    """What the engine writes next begins a line of its own."""
+    stopped.unseal()
+    write_rows(stopped.folder, 96)
+    table = stopped.folder / stopped.product
+    whole = table.read_bytes()
+    table.write_bytes(whole + tail)
+    assert state(stopped) == ("a", 96)
+    assert table.read_bytes() == whole
+
+
 def test_frames_lost_in_a_power_cut_are_missed(stopped: Phase) -> None:
     stopped.unseal()
     write_frames(stopped.folder, 95 * EVERY)

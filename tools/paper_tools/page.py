@@ -69,7 +69,7 @@ def interval(effect: Effect, digits: int = 3) -> str:
 
 
 def print_page(page: Path) -> Path | None:
-    """The page as PDF, beside it; None without a browser."""
+    """The page as PDF, beside it; None without a browser, or if that takes five minutes."""
     browser = next((path for name in BROWSERS if (path := shutil.which(name))), None)
     if browser is None:
         return None
@@ -82,7 +82,10 @@ def print_page(page: Path) -> Path | None:
         "--no-pdf-header-footer",
         f"--print-to-pdf={target}",
     ]
-    done = subprocess.run([*command, page.absolute().as_uri()], capture_output=True, timeout=300)
+    try:
+        done = subprocess.run([*command, page.absolute().as_uri()], capture_output=True, timeout=300)
+    except subprocess.TimeoutExpired:
+        return None
     return target if done.returncode == 0 and target.exists() else None
 
 

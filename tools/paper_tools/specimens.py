@@ -129,7 +129,7 @@ def specimen(results: Results) -> Specimen:
     phi, phi_plane = (float(np.degrees(np.arctan(s))) for s in (slope, slope_plane))
     return Specimen(
         seed=int(results.identity["seed"]),
-        tests={shear.sigma: numbers(shear, results.consolidations[shear.sigma]) for shear in results.shears},
+        tests={shear.sigma: numbers(shear, results.consolidations.get(shear.sigma, {})) for shear in results.shears},
         phi=phi,
         c=float(c),
         phi_plane=phi_plane,
@@ -147,7 +147,7 @@ def curves(shear: Shear) -> np.ndarray:
 
 
 def numbers(shear: Shear, bed: Numbers) -> Numbers:
-    """Those of NUMBERS of one test; `bed` is the table of its consolidation."""
+    """Those of NUMBERS of one test; `bed` is the table of its consolidation, empty if that is gone."""
     rows = {name: column[shear.rows] for name, column in shear.data.items()}
     s, plane = rows["displacement_mm"], shear.plane
     assert plane is not None
@@ -173,7 +173,7 @@ def numbers(shear: Shear, bed: Numbers) -> Numbers:
         "roughness": float(np.std(rows["tau_kPa"] - shear.tau.series(s)) / np.mean(rows["tau_kPa"])),
         "inertial": float(np.mean(rows["inertial"])),
         "coordination": float(shear.data["coordination"][0]),
-        "solid": bed["solid_fraction"],
+        "solid": bed.get("solid_fraction", np.nan),
         "sides_rest": float(shear.data["sides_upper_kPa"][0] / lid),
         "sides_peak": float(np.mean(rows["sides_upper_kPa"][near]) / lid),
         "flanges_peak": float(np.mean(rows["flanges_upper_kPa"][near]) / lid),

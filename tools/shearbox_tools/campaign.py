@@ -68,6 +68,7 @@ class Campaign:
         self._engine = engine
         self._display = display
         self._locks = locks
+        self._disks = list({run.folder.stat().st_dev: run.folder for run in runs}.values())  # a folder on each
         self._failures: list[Failure] = []
         self._ending = False
         self.stopped = False  # before all was done, as asked
@@ -158,7 +159,7 @@ class Campaign:
             signal.signal(signal.SIGINT, before)
 
     def _guard_disk(self) -> None:
-        folder = min((run.folder for run in self._runs), key=free_bytes)
+        folder = min(self._disks, key=free_bytes)
         free = free_bytes(folder)
         if free < LEAST_FREE_BYTES:
             raise ShearboxError(

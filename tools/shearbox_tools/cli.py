@@ -324,7 +324,8 @@ def _add_jobs(commands: Commands) -> None:
         parser.set_defaults(command=command)
         if command is _status:
             _add_json(parser)
-    parser.add_argument("number", metavar="N", type=int, help="number of the element, from 1 on")
+        if command is _element:
+            parser.add_argument("number", metavar="N", type=int, help="number of the element, from 1 on")
 
 
 # The commands import what they need themselves: --help answers at once, and a missing package has a message.

@@ -106,7 +106,10 @@ def _check(discs: np.ndarray) -> None:
     alike = np.tril(apart + np.abs(r[:, None] - r) < LEAST_DIFFERENCE * np.minimum(r[:, None], r), -1)
     if alike.any():
         one, other = np.argwhere(alike)[0] + 1
-        raise ValueError(f"disc {one} is hardly another than disc {other}: both would bear all contacts")
+        raise ValueError(
+            f"disc {one} nearly coincides with disc {other}: distance of centres and difference of radii "
+            "must add up to 2 % of the smaller radius"
+        )
     joined = apart <= r[:, None] + r + TOUCHING * np.minimum(r[:, None], r)
     reached = joined[0]
     for _ in r:

@@ -131,11 +131,6 @@ def model_files(folder: Path = INPUT / "models") -> list[Path]:
     return paths
 
 
-def all_models(folder: Path = INPUT / "models") -> list[Model]:
-    """All models, in the order of the paper's table: by discs per grain, then size, then box."""
-    return sorted((read_model(path) for path in model_files(folder)), key=table_order)
-
-
 def find_model(name: str, settings: dict[str, str] | None = None, friction: float = 0.0) -> Model:
     """The model of that name, or in that file, with other values for some of its variables; or an error that helps.
 
@@ -163,7 +158,7 @@ def is_of_the_decks(identity: Mapping[str, Any]) -> bool:
 
 
 def table_order(model: Model) -> tuple[bool, bool, float, float]:
-    """The key that sorts models as the paper's table does."""
+    """The key that sorts models as the paper's table does: by discs per grain, then size, then box."""
     return (model.dmin == model.dmax, model.discs > 1, -model.dmax, model.width)
 
 

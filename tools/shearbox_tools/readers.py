@@ -72,10 +72,12 @@ def _refuse_gaps(steps: list[int], path: Path) -> None:
 
 
 def cut_rows(path: Path, step: int) -> None:
-    """Cut the table off after the row of that step."""
+    """Cut the table off after the row of that step, and a last line that has no end."""
     end = 0
     with path.open("rb") as stream:
         for line in stream:
+            if not line.endswith(b"\n"):
+                break
             if line.strip() and not line.startswith(b"#") and float(line.split()[0]) > step:
                 break
             end += len(line)

@@ -34,21 +34,17 @@ from .specimens import Run, check_out, find_runs, planned, read_seeds
 
 SPARE_BYTES = 100_000_000
 MOST_RUNS = 900  # each keeps a file open, its lock
-OF_A_RUN = (
-    "stress",
-    "accuracy",
-    "speed",
-    "travel",
-    "seed",
-    "seeds",
-    "independent",
-    "host",
-    "law",
-    "dt",
-    "stiffness",
-    "density",
-    "set",
-)
+BESIDE_A_RUN = (
+    "model",
+    "out",
+    "only",
+    "jobs",
+    "ranks",
+    "engine",
+    "dry_run",
+    "cluster",
+    "command",
+)  # options that are not of it
 DEFAULT_STRESSES = (100.0, 200.0, 300.0, 400.0)  # kPa
 
 
@@ -203,7 +199,7 @@ def _ensemble_there(folder: Path, given: dict[str, Any]) -> tuple[Path, list[Run
     folders = find_runs(folder)
     if not folders:
         raise InputError(f"{folder} holds no run: there is no {RECORD} in it, nor below it")
-    changes = [f"--{name}" for name in given if name in OF_A_RUN]
+    changes = [f"--{name}" for name in given if name not in BESIDE_A_RUN]
     if changes:
         raise InputError(
             f"{folder} holds {len(folders)} runs, which go on as they were asked for: leave out {', '.join(changes)}, or "

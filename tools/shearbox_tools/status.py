@@ -90,7 +90,7 @@ def _without_a_job(folder: Path, element: int, progress: Progress) -> str:
     if progress.phases_done == progress.phases:
         return "done"
     if not element:
-        return "was done when the others were submitted, and is no more"
+        return "was done when the others were submitted, but its results are gone or damaged now"
     log = log_of(folder, element)
     lines = said(log)
     last = next((line for line in reversed(lines) if line.startswith("shearbox: ")), lines[-1] if lines else "nothing")

@@ -231,6 +231,7 @@ async function show() {
 
 button.onclick = () => {
   if (playing) return stop();
+  if (!test) return;
   if (at >= test.frames - 1) at = 0;
   button.textContent = 'Pause';
   playing = performance.now();
