@@ -194,6 +194,7 @@ void FixCDEMHistory::restart(char *buf) {
   for (int m = 0; m < file.count; m++)
     names.push_back({file.name[m], false});
 }
+
 double FixCDEMHistory::memory_usage() {
   return double((first.capacity() + count.capacity()) * sizeof(int) + owner.capacity() * sizeof(tagint) +
                 contacts.capacity() * sizeof(Contact) + numbers.capacity() * sizeof(double));

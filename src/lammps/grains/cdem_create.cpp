@@ -91,12 +91,13 @@ std::array<double, 3> CDEMCreate::coordinates(const Disc &disc) const {
 
 void CDEMCreate::check(const Disc &disc) const {
   const auto centre = coordinates(disc);
-  const double *const low = domain->triclinic ? domain->boxlo_lamda : domain->boxlo;
-  const double *const high = domain->triclinic ? domain->boxhi_lamda : domain->boxhi;
+  const bool tilted = domain->triclinic;
+  const double *const low = tilted ? domain->boxlo_lamda : domain->boxlo;
+  const double *const high = tilted ? domain->boxhi_lamda : domain->boxhi;
   for (int k = 0; k < 3; k++)
     if (!(centre[k] >= low[k] && centre[k] < high[k]))
       error->all(FLERR, "cdem/create: disc centre {} = {} is outside of the box, {} to {}{}", "xyz"[k], centre[k],
-                 low[k], high[k], domain -> triclinic ? " in shares of its tilted sides" : "");
+                 low[k], high[k], tilted ? " in shares of its tilted sides" : "");
 }
 
 bool CDEMCreate::is_mine(const Disc &disc) const {

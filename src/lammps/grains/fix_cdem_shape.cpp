@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "grains/fix_cdem_shape.h"
 
-#include "fmt/format.h"
 #include "grains/fix_cdem_grains.h"
 #include "host/find_fix.h"
 
 #include "atom.h"
 #include "error.h"
+#include "fmt/format.h"
 #include "utils.h"
 
 #include <algorithm>

@@ -4,7 +4,6 @@
 #include "contacts/pair_cdem.h"
 #include "core/rotation.h"
 #include "grains/fix_cdem_shape.h"
-
 #include "host/packed_state.h"
 
 #include "atom.h"
