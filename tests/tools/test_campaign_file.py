@@ -65,6 +65,14 @@ def test_the_command_line_counts_before_the_file(tmp_path: Path) -> None:
     assert (tmp_path / "results" / "rough" / "seed_1" / "200").is_dir()
 
 
+def test_false_undoes_what_is_true_for_all(tmp_path: Path) -> None:
+    """And one seed in a list is that seed."""
+    text = TWO.replace("seeds = 2", "seeds = [7]\nindependent = true") + "independent = false\n"
+    assert finish(campaign(tmp_path, text)).returncode == 0
+    found = sorted(str(path.parent.relative_to(tmp_path / "results")) for path in tmp_path.rglob("run.json"))
+    assert found == ["coarse/seed_7_100kPa", "rough/seed_7"]
+
+
 def test_stopped_and_taken_up_again(tmp_path: Path) -> None:
     run = campaign(tmp_path, TWO, "--only", "coarse", FAKE_SECONDS="20")
     wait_for(lambda: (tmp_path / "results" / "coarse" / "seed_1" / "100" / "shear.restart.a").exists())

@@ -13,7 +13,7 @@ from scipy import stats
 from test_ensemble_report import REQUEST, only, write_run
 
 from shearbox_tools.cli import main
-from shearbox_tools.comparison import ALONE, PAIRED, WELCH, Comparison, Quantity, same_packings
+from shearbox_tools.comparison import ALONE, PAIRED, SOME_SHARED, WELCH, Comparison, Quantity, same_packings
 from shearbox_tools.ensemble_results import Ensemble
 from shearbox_tools.results import Results, read_results
 
@@ -118,6 +118,8 @@ def test_which_packings_are_the_same(base):
     assert not same_packings(Ensemble(one), Ensemble(specimens(base, [1, 2])))
     packed_otherwise = [*one[:2], replace(one[2], packing=one[2].packing | {"kinetic_J": 1e-9})]
     assert not same_packings(Ensemble(one), Ensemble(packed_otherwise))
+    some = Comparison([Ensemble(one), Ensemble(specimens(base, [2, 3, 4], 0.1))])
+    assert some.methods == [None, SOME_SHARED], "not independent"
     unknown = [replace(run, packing=None) for run in one]
     assert not same_packings(Ensemble(unknown), Ensemble(unknown))
 

@@ -361,3 +361,14 @@ def test_models_of_a_name_are_told_apart_by_their_variables(runs):
     other = with_identity(runs[0], model="other", **{"model dmin": 0.002})
     ensembles, _ = put_together([runs[0], finer, other])
     assert what_differs(ensembles) == ["dmin 0.004, ngrains 350", "dmin 0.003, ngrains 500", ""]
+
+
+def test_specimens_behind_links_are_found_once(tmp_path: Path) -> None:
+    for name in ("all/seed_1", "scratch/seed_2"):
+        (tmp_path / name).mkdir(parents=True)
+        (tmp_path / name / "run.json").write_text("{}", encoding="utf-8")
+    (tmp_path / "all" / "seed_2").symlink_to(tmp_path / "scratch" / "seed_2")
+    (tmp_path / "all" / "again").symlink_to(tmp_path / "scratch" / "seed_2")
+    (tmp_path / "all" / "round").symlink_to(tmp_path / "all")
+    assert len(find_runs(tmp_path / "all")) == 2
+    assert find_runs(tmp_path / "all" / "10²") == []

@@ -269,11 +269,11 @@ def test_a_packing_that_has_begun_is_partly_done(folder: Path) -> None:
     for name in (packing.restart, packing.product):
         (packing.folder / name).unlink()
     shares = []
-    for step in (None, 1000, 10000, 10**9):
+    for step in (None, 1000, 10000, 30000, 60000, 100000, 10**9):
         if step is not None:
             synthetic.write_restart(packing.folder / f"{packing.restart}.a", step)
         shares.append(Forecast(folder, REQUEST).share_done(packing))
-    assert shares[0] == 0 and 0 < shares[1] < shares[2] < shares[3] < 1
+    assert shares[0] == 0 and shares == sorted(set(shares)) and shares[-1] < 1, "a job that goes on has done something"
     assert shares[2] == pytest.approx(10 * shares[1])
 
 

@@ -191,6 +191,9 @@ def test_too_many_grains(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert len(player.film_of(results.shears, THICKNESS)["tests"][0]["displacement"]) == 3
     monkeypatch.setattr(player, "FEWEST_FRAMES", 4)
     assert player.film_of(results.shears, THICKNESS) == {}
+    monkeypatch.setattr(player, "FEWEST_FRAMES", 2)
+    monkeypatch.setattr(player, "MOST_BODIES", bodies - 1)
+    assert player.film_of(results.shears, THICKNESS) == {}
     page = report(folder).read_text(encoding="utf-8")
     assert 'id="player"' not in page and "no player: these are too many grains for a page" in page
 

@@ -6,7 +6,7 @@ import pytest
 from synthetic import correlated_noise, softening
 
 from shearbox_tools.peak import find_peak, turning_points
-from shearbox_tools.polynomial import DEGREES, block_averages, correlation_length, fit_curve
+from shearbox_tools.polynomial import DEGREES, block_averages, correlation_length, end_zone, fit_curve
 
 TRAVEL = 8.0
 ROWS = 800
@@ -62,6 +62,17 @@ def test_rising_curve_has_its_peak_at_the_boundary():
     assert peak.position == pytest.approx(s[-1])
 
 
+def test_a_curve_that_falls_from_the_start_has_its_peak_there():
+    """However it goes up and down later on: the first place where the polynomial is held."""
+    s = displacement()
+    truth = 30 + 40 * np.exp(-s / 1.5) + 8 * np.exp(-((s - 5.5) ** 2) / 2)
+    for seed in range(5):
+        peak = find_peak(fit_curve(s, truth + correlated_noise(np.random.default_rng(seed), ROWS, 1, 8)))
+        assert peak.at_boundary and peak.falls
+        assert peak.position == pytest.approx(end_zone(s[-1]))
+        assert peak.value == pytest.approx(np.interp(peak.position, s, truth), rel=0.05)
+
+
 @pytest.mark.parametrize("end, at_boundary", [(8, True), (-2, False)])
 def test_the_end_counts_only_if_it_is_higher(end, at_boundary):
     s = displacement()
@@ -69,6 +80,13 @@ def test_the_end_counts_only_if_it_is_higher(end, at_boundary):
     peak = find_peak(fit_curve(s, bump + correlated_noise(np.random.default_rng(6), ROWS, 1, 8)))
     assert peak.at_boundary == at_boundary
     assert peak.position == pytest.approx(s[-1] if at_boundary else 1.53, abs=0.3)
+
+
+def test_a_curve_that_is_nothing():
+    """As of a lid that is held."""
+    fit = fit_curve(displacement(), np.zeros(ROWS))
+    assert np.all(fit.series(displacement()) == 0)
+    assert find_peak(fit).value == 0
 
 
 def test_same_data_same_result():

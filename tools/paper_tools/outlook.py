@@ -119,8 +119,8 @@ def _figure(sweep: Sweep, points: list[Point]) -> Figure:
         for look, family in zip(OTHER_LOOKS, sorted({point.family for point in points})):
             some = [point for point in points if point.family == family]
             effects = [point.effect(name) for point in some]
-            half = [(e.high - e.low) / 2 for e in effects]
-            axes.errorbar([p.value for p in some], [e.value for e in effects], half, fmt=look.mark, color=look.colour,
+            reach = [[e.value - e.low for e in effects], [e.high - e.value for e in effects]]
+            axes.errorbar([p.value for p in some], [e.value for e in effects], reach, fmt=look.mark, color=look.colour,
                           ls=look.dashes, lw=1.2, ms=4, capsize=2, label=family)  # fmt: skip
         axes.set(xlabel=sweep.axis, ylabel=label)
         axes.xaxis.label.set_fontsize(7.5)

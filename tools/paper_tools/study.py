@@ -126,7 +126,7 @@ def _missing(groups: Mapping[str, Mapping[str, Group]]) -> list[str]:
     missing = []
     for name in CAMPAIGNS:
         asked = sum(run["seeds"] for run in runs_of(name).values())
-        there = sum(len(group.specimens) for group in groups[name].values())
+        there = sum(min(len(g.specimens), runs_of(name)[run]["seeds"]) for run, g in groups[name].items())
         if there < asked:
             missing.append(f"{name}: {there} of {asked} specimens")
     return missing

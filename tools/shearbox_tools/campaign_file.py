@@ -97,11 +97,13 @@ def _parsed(path: Path, where: str, table: Options, parse: Callable[[list[str]],
         options = parse(words)
     except InputError as error:
         raise InputError(f"{path}: [{where}]: {error}") from error
+    options |= {name: False for name, value in table.items() if value is False}  # undoes what is true for all
     return options if "model" in table else {name: value for name, value in options.items() if name != "model"}
 
 
 def words_of(name: str, value: Any) -> list[str]:
-    """An option of the command line; true is one without a value, false and None are none."""
+    """An option of the command line; true is one without a value, false and None are none. Seeds in a list are seeds, even if it
+    is only one, which on the command line would be their number."""
     if value is None:
         return []
     if isinstance(value, bool):
@@ -109,6 +111,8 @@ def words_of(name: str, value: Any) -> list[str]:
     if isinstance(value, dict):
         value = [f"{variable}={amount}" for variable, amount in value.items()]
     several = not isinstance(value, str) and isinstance(value, Iterable)
+    if several and name == "seeds":
+        value = [f"{seed}-{seed}" if isinstance(seed, int) else seed for seed in value]
     return [f"--{name}", *map(str, value if several else [value])]
 
 
@@ -119,6 +123,7 @@ def _put_together(layers: list[Options]) -> Options:
         ours = {text.partition("=")[0].strip() for text in layer.get("set", [])}
         kept = [text for text in options.get("set", []) if text.partition("=")[0].strip() not in ours]
         options |= layer
+        options = {name: value for name, value in options.items() if value is not False}
         if settings := kept + layer.get("set", []):
             options["set"] = settings
     return options

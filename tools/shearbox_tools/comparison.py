@@ -16,6 +16,7 @@ from .shear import Shear
 
 PAIRED = "paired by packing"
 WELCH = "Welch"
+SOME_SHARED = "Welch, though some packings are the same"
 ALONE = "one specimen, so no interval"
 
 
@@ -115,16 +116,22 @@ class Comparison:
 def _method(first: Ensemble, other: Ensemble) -> str:
     if min(first.count, other.count) < 2:
         return ALONE
-    return PAIRED if same_packings(first, other) else WELCH
+    if same_packings(first, other):
+        return PAIRED
+    return SOME_SHARED if _shared_seeds(first, other) else WELCH
 
 
 def same_packings(one: Ensemble, other: Ensemble) -> bool:
-    """Whether both have the same specimens before consolidation, so that they differ in how these were sheared: equal seeds,
-    and equal tables of the packings, whose digits no other model, setting of the packing or version has."""
+    """Whether both have the same specimens before consolidation, so that they differ in how these were sheared."""
+    return len(_shared_seeds(one, other)) == one.count == other.count
+
+
+def _shared_seeds(one: Ensemble, other: Ensemble) -> set[int]:
+    """Of packings that are in both: equal seeds, and equal tables, whose digits no other model, setting or version has."""
     if one.independent or other.independent:
-        return False
-    packings = [{run.identity["seed"]: run.packing for run in ensemble.specimens} for ensemble in (one, other)]
-    return packings[0] == packings[1] and all(packings[0].values())
+        return set()
+    packings, others = ({run.identity["seed"]: run.packing for run in e.specimens} for e in (one, other))
+    return {seed for seed, packing in packings.items() if packing and packing == others.get(seed)}
 
 
 def _in_order(specimens: Sequence[Results], stresses: Sequence[float]) -> list[Results]:

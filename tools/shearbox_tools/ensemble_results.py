@@ -183,8 +183,8 @@ class Ensemble:
 
     def _proportional(self) -> Verdict:
         """Of the means of the peaks, with the weights of the model: 1 / sigma^2."""
-        sigma = np.array(list(self.shears))
-        peaks = np.array([np.mean([shear.peak.value for shear in shears]) for shears in self.shears.values()])
+        sigma = np.array(list(self.shears) if self.independent else self.common)
+        peaks = np.array([np.mean([shear.peak.value for shear in self.shears[s]]) for s in sigma])
         return proportional(sigma, peaks, fit_line(sigma, peaks, sigma) if len(sigma) > 1 else None)
 
 

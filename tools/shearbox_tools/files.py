@@ -68,7 +68,8 @@ def write_text(path: Path, text: str) -> None:
     draft = path.with_name(path.name + DRAFT)
     try:
         draft.unlink(missing_ok=True)
-        with draft.open("x", encoding="utf-8") as stream:  # x follows no link that has come in between
+        # x follows no link that has come in between; paths may have what is no text
+        with draft.open("x", encoding="utf-8", errors="replace") as stream:
             stream.write(text)
             stream.flush()
             os.fsync(stream.fileno())

@@ -110,7 +110,10 @@ class Forecast:
             return min(1.0, phase.displacement() / self._request.travel)
         reached = max((step_of(phase.folder / name) or 0 for name in phase.checkpoints), default=0)
         begin = step_of(self._packing.folder / self._packing.restart) or 0 if phase.name == CONSOLIDATE else 0
-        return min(0.9, max(0, reached - begin) / self._steps(phase))
+        share = max(0, reached - begin) / self._steps(phase)
+        return (
+            share if share < 0.9 else 1 - 0.01 / (share - 0.8)
+        )  # beyond what was expected, more and more of it nevertheless
 
     def left(self, phase: Phase) -> float:
         """Time still to go."""

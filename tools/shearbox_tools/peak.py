@@ -22,29 +22,33 @@ class Peak:
     position: float
     position_error: float
     at_boundary: bool  # there is no peak within the travel
+    falls: bool = False  # then: the curve falls from its first zone on, instead of rising to its end
 
 
 def find_peak(fit: Fit) -> Peak:
-    """Highest interior maximum, unless the end of the curve is significantly higher.
+    """Highest interior maximum, unless the curve is significantly higher at one of its ends.
 
-    A polynomial is poorly held near its ends, so maxima within `end_zone` of them do not count. If the value at the end
-    exceeds the interior maximum by more than two standard errors, or there is no interior maximum, the boundary is
-    returned and marked as such: the end of the travel for a curve that rises, the first zone for one that falls.
+    A polynomial is poorly held near its ends, so maxima within `end_zone` of them do not count. If the value at the end of
+    the travel or behind the first zone exceeds the interior maximum by more than two standard errors, or there is no interior
+    maximum, the higher of those that do is returned and marked as such: the end of the travel for a curve that rises, the
+    first zone for one that falls.
 
     The uncertainties are the root mean square deviations of the bootstrap replicas from the peak: they hold
     the noise, the choice of the degree, and the bias of taking the maximum of a noisy curve.
     """
-    margin = 2 * float(fit.error(fit.span)[0])
-    (position,), (value,), (at_boundary,) = _locate(fit.series.coef[:, None], fit.span, margin)
-    positions, values, _ = _locate(fit.replicas(REPLICAS), fit.span, margin)
+    margins = 2 * fit.error(np.array([end_zone(fit.span), fit.span]))
+    (position,), (value,), (at_boundary,), (falls,) = _locate(fit.series.coef[:, None], fit.span, margins)
+    positions, values, *_ = _locate(fit.replicas(REPLICAS), fit.span, margins)
     errors = _rms(values - value), _rms(positions - position)
-    return Peak(float(value), errors[0], float(position), errors[1], bool(at_boundary))
+    return Peak(float(value), errors[0], float(position), errors[1], bool(at_boundary), bool(falls))
 
 
-def _locate(curves: np.ndarray, span: float, margin: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Positions of the peaks of polynomials on [0, span], their heights, and whether they are at an end.
+def _locate(
+    curves: np.ndarray, span: float, margins: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Positions of the peaks of polynomials on [0, span], their heights, whether they are at an end, and at the first.
 
-    curves: (n, c) Legendre coefficients of c polynomials.
+    curves: (n, c) Legendre coefficients of c polynomials; margins: by which either end must be higher than what is inside.
     """
     inner = 1 - end_zone(2)
     tops = _maxima(curves)
@@ -52,12 +56,12 @@ def _locate(curves: np.ndarray, span: float, margin: float) -> tuple[np.ndarray,
     highest = heights.argmax(axis=0)[None]
     top, height = (np.take_along_axis(of, highest, axis=0)[0] for of in (tops, heights))
     first, last = legendre.legval(np.array([-inner, 1]), curves).T
-    none = np.isneginf(height)
-    at_boundary = none | (last > height + margin)
-    rises = ~none | (last > first)
-    places = np.where(at_boundary, np.where(rises, 1, -inner), top)
-    values = np.where(at_boundary, np.where(rises, last, first), height)
-    return span * (places + 1) / 2, values, at_boundary
+    highest_first, highest_last = first > height + margins[0], last > height + margins[1]
+    rises = highest_last & ((last > first) | ~highest_first)
+    falls = highest_first & ~rises
+    places = np.select([rises, falls], [1.0, -inner], top)
+    values = np.select([rises, falls], [last, first], height)
+    return span * (places + 1) / 2, values, rises | falls, falls
 
 
 def turning_points(series: Legendre) -> list[float]:

@@ -27,6 +27,7 @@ from .style import looks
 MOST_FRAMES = 26  # of a test, first and last among them; the player goes straight from one to the next
 FEWEST_FRAMES = 5
 MOST_PLACES = 250_000  # bodies times frames of a test: some 2 MB of the page
+MOST_BODIES = 50_000  # their numbers are packed into 16 bits
 ROWS = 200  # of the curves, at full speed
 SHADES = 48
 CHOSEN_COLOUR = "#ff00c8"  # in no scale of colours
@@ -74,7 +75,7 @@ def packed(values: np.ndarray) -> dict[str, Any]:
 def _frames(film: Film, bodies: int) -> list[int]:
     """Steps of the frames to play; none if there would be too few."""
     count = min(MOST_FRAMES, MOST_PLACES // bodies, len(film.steps))
-    if count < min(FEWEST_FRAMES, len(film.steps)):
+    if count < min(FEWEST_FRAMES, len(film.steps)) or bodies > MOST_BODIES:
         return []
     return [film.steps[k] for k in np.linspace(0, len(film.steps) - 1, count).round().astype(int)]
 

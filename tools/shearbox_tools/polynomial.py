@@ -93,7 +93,7 @@ def fit_curve(x: np.ndarray, y: np.ndarray, through_origin: bool = False) -> Fit
     width = _block_width(functions, y)
     design, blocks = block_averages(functions, width), block_averages(y, width)
     coefficients = _best_coefficients(design, blocks[:, None])[:, 0]
-    coefficients = coefficients[: np.flatnonzero(coefficients)[-1] + 1]
+    coefficients = coefficients[: int(np.max(np.flatnonzero(coefficients), initial=0)) + 1]
     return Fit(design, basis, blocks, span, len(coefficients) - 1 + through_origin, coefficients, width)
 
 
@@ -129,7 +129,8 @@ def _basis(through_origin: bool) -> np.ndarray:
 
 
 def _legendre(basis: np.ndarray, coefficients: np.ndarray, span: float) -> Legendre:
-    return Legendre(np.trim_zeros(basis[:, : len(coefficients)] @ coefficients, "b"), domain=[0, span])
+    series = np.trim_zeros(basis[:, : len(coefficients)] @ coefficients, "b")
+    return Legendre(series if len(series) else [0.0], domain=[0, span])
 
 
 def _vander(x: np.ndarray, span: float) -> np.ndarray:

@@ -41,7 +41,7 @@ class Inertia:
             share = self.number / LARGEST_INERTIAL_NUMBER
             judged.append(share <= 1)
             numbers.append(f"inertial number {told_apart(share, 1, 2)}e-3 (≤ 1e-3)")
-        if self.imbalance_percent is not None:
+        if self.imbalance_percent is not None and np.isfinite(self.imbalance_percent):
             judged.append(self.imbalance_percent <= LARGEST_IMBALANCE_PERCENT)
             percent = told_apart(self.imbalance_percent, LARGEST_IMBALANCE_PERCENT, 1)
             numbers.append(f"τ of the halves differs by {percent} % (≤ {LARGEST_IMBALANCE_PERCENT} %)")

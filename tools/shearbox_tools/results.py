@@ -80,7 +80,7 @@ class Results:
     def plane_line(self) -> Line | None:
         """That by the stresses on the shear plane, where these are known and their peaks can be judged."""
         planes = [shear.plane for shear in self.shears if shear.plane]
-        if not self.judges_plane or len(planes) < 2:
+        if not self.judges_plane or len({plane.sigma_at_peak for plane in planes}) < 2:
             return None
         return line_on_plane(planes)
 

@@ -77,9 +77,10 @@ class Shear:
         if percent > LARGEST_ERROR_PERCENT:
             return f"τ = {peak.value:.0f} ± {peak.value_error:.0f} kPa is too uncertain (error ≤ {LARGEST_ERROR_PERCENT} %)"
         travel = 100 * self.reached / self.width
-        least = LEAST_TRAVEL_WITHOUT_PEAK_PERCENT if peak.at_boundary else LEAST_TRAVEL_PERCENT
+        rises = peak.at_boundary and not peak.falls
+        least = LEAST_TRAVEL_WITHOUT_PEAK_PERCENT if rises else LEAST_TRAVEL_PERCENT
         if travel < least:
-            without = " without a peak" if peak.at_boundary else ""
+            without = " without a peak" if rises else ""
             return f"sheared by {told_apart(travel, least, 1)} % of the width{without} (≥ {least} %)"
         return None
 
@@ -100,10 +101,9 @@ class Shear:
             remarks.append(self.doubt if not self.complete else f"the peak cannot be judged: {self.doubt}")
         if self.plane_doubt:
             remarks.append(f"the peak on the shear plane cannot be judged: {self.plane_doubt}")
-        if self.peak.at_boundary:
-            remarks.append("τ has no peak within the travel; its greatest value is taken")
-        if self.plane and self.plane.peak.at_boundary:
-            remarks.append("τ on the shear plane has no peak within the travel; its greatest value is taken")
+        remarks += _edge_remark("τ", self.peak)
+        if self.plane:
+            remarks += _edge_remark("τ on the shear plane", self.plane.peak)
         if self.peaks_differ:
             remarks.append(
                 "the polynomial's peak is not that of the smoothed data: they are apart by more than their errors"
@@ -160,6 +160,17 @@ class Shear:
             return None
         steps = np.diff(counts, prepend=0)
         return int(np.sum(np.where(steps < 0, counts, steps)))
+
+
+def _edge_remark(name: str, peak: Peak) -> list[str]:
+    """What is to be said of a peak that is none."""
+    if not peak.at_boundary:
+        return []
+    if peak.falls:
+        return [
+            f"{name} falls from {peak.position:.2f} mm on, where its polynomial is first held: taken is its value there"
+        ]
+    return [f"{name} has no peak within the travel; its greatest value is taken"]
 
 
 def analyse(

@@ -72,12 +72,17 @@ def _as_given(seeds: int | range) -> str:
 
 
 def find_runs(folder: Path, marks: tuple[str, ...] = (RECORD,)) -> list[Path]:
-    """Folders at or below one that hold a file of such a name, in order of their names; what is below them is theirs.
+    """Folders at or below one that hold a file of such a name, in order of their names; what is below them is theirs. Links to
+    folders are followed, each folder is found once.
 
     Raises ShearboxError for a folder that cannot be read: a mean without its specimens would not be missed.
     """
-    found = []
-    for place, below, files in os.walk(folder, onerror=_refuse):
+    found, seen = [], set()
+    for place, below, files in os.walk(folder, onerror=_refuse, followlinks=True):
+        if (real := os.path.realpath(place)) in seen:
+            below.clear()
+            continue
+        seen.add(real)
         if any(mark in files for mark in marks):
             found.append(Path(place))
             below.clear()
@@ -114,4 +119,4 @@ def check_out(out: Path, runs: list[Run]) -> None:
 
 def _natural(path: Path) -> list[tuple[int, str]]:
     """The key that puts seed_2 before seed_10."""
-    return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"(\d+)", str(path))]
+    return [(int(part), "") if part.isdecimal() else (-1, part) for part in re.split(r"(\d+)", str(path))]
