@@ -45,7 +45,7 @@ FixIntegrate::FixIntegrate(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
     } else
       stop(lmp, "Fix cdem/integrate: unknown keyword ", keyword, "; allowed: dt, drag");
   }
-  time_integrate = 1;
+  time_integrate = create_attribute = 1;
   scalar_flag = vector_flag = peratom_flag = 1;
   global_freq = peratom_freq = 1;
   size_vector = NOUTPUTS;

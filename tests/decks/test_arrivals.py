@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -184,3 +185,44 @@ def test_angles_are_not_lost_in_a_data_file(tmp_path: Path) -> None:
     status, output = start(deck, tmp_path / "written")
     assert status != 0
     assert "Angles of grains, which read_data cannot read: use a restart file" in output
+
+
+@pytest.mark.parametrize("contents", ["check", "auto 1e-2"])
+def test_a_step_too_large_for_the_first_grain_is_refused(tmp_path: Path, contents: str) -> None:
+    """A run that begins without grains has no limit; it has one as they come."""
+    deck = DEPOSIT.replace("dt any", f"dt {contents}").replace("timestep    1e-3", "timestep    1e-2")
+    status, output = start(deck, tmp_path, style="verlet/cdem", depth="0 0")
+    assert status != 0
+    assert re.search("the time step 0.01 is beyond the stability limit 0.00[0-9]* of this scene", output)
+
+
+def test_the_limit_of_contacts_of_grains_that_came(tmp_path: Path) -> None:
+    """That of a smooth disc on a wall without damping: 2 sqrt(m/kn)."""
+    output = "compute limit all cdem/limit\nthermo_style custom step c_limit\nthermo 10\nrun 4000"
+    deck = DEPOSIT.replace("run         4000", output).replace("1e4 2.5e3 0 0 0", "1e4 0 0 0 0").split("\ndump ")[0]
+    done = run(deck + '\nprint "mass = $(mass[2])"\n', tmp_path, style="verlet/cdem", depth="0 0")
+    limits = done.thermo["c_limit"]
+    assert np.isinf(limits).any() and np.isfinite(limits).any()
+    limit = 2 * math.sqrt(done.printed("mass") / 1e4)
+    assert limits[np.isfinite(limits)] == pytest.approx(limit, rel=1e-3)
+
+
+@pytest.mark.parametrize("style", ["verlet", "verlet/cdem"])
+def test_a_grain_that_goes_from_one_rank_alone_hangs_no_audit(tmp_path: Path, style: str) -> None:
+    deck = f"""{BOX.replace("boundary    f f p", "boundary    p f p")}
+create_atoms 1 single 0.4999 2 0
+create_atoms 1 single 9.5001 2 0
+create_atoms 1 single 2.5 8 0
+set         group all diameter 1 density/disc 1
+group       goer id 3
+region      whole block INF INF INF INF INF INF
+fix         out goer evaporate 10 1 whole 4711
+{PAIR}
+run_style   {style}
+fix         move all cdem/integrate dt any
+compute     energy all cdem/energy audit yes
+timestep    1e-4
+run         20
+print       "grains = $(count(all))"
+"""
+    assert run(deck, tmp_path, ranks=2).printed("grains") == 2

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from engine import DECKS, Disc, Run, run, same_bits
+from engine import DECKS, Disc, Run, run, same_bits, start
 from scenes import lattice, mini_box
 
 MINI_BOX = (DECKS / "mini_box.in").read_text()
@@ -215,3 +215,64 @@ def test_deforming_box(tmp_path: Path, law: str, ranks: int, flow: str) -> None:
     assert abs(out.thermo["E_pair"][-1] / out.thermo["E_pair"][0] - 1) > 0.01  # it did deform
     behind = 2e-8 * 100 * box[1]
     assert np.abs([out.end["fx"], out.end["fy"]]).max() < 2 * 1e8 * behind
+
+
+DEFORM = """
+units lj
+dimension 2
+boundary p f p
+processors ${px} ${py} 1
+atom_style sphere
+atom_modify map array
+newton off
+comm_modify vel yes
+region box block 0 20 0 20 -0.5 0.5
+create_box 1 box
+create_atoms 1 single 0.6 10 0
+create_atoms 1 single 19.4 10 0
+set group all diameter 1 density/disc 1
+velocity all set 0 1e-3 0
+pair_style cdem law direct
+pair_coeff * * 1e4 0 0 0 0
+fix move all cdem/integrate dt any
+fix flow all deform 10 x erate -0.01 remap none
+run_style ${style}
+neighbor 0.05 bin
+neigh_modify delay 0
+timestep 1e-4
+run 14000
+variable way equal x[2]-x[1]
+print "way = $(v_way)"
+"""
+
+
+def test_a_box_that_is_deformed_now_and_then(tmp_path: Path, ranks: int) -> None:
+    """Grains stand still, and their images come nearer by 0.014 x 20: these touch after 0.01, and push them together."""
+    ways = [run(DEFORM, tmp_path / style.replace("/", "_"), ranks=ranks, style=style).printed("way")
+            for style in ("verlet", "verlet/cdem")]  # fmt: skip
+    assert ways[0] == ways[1] < 18.79
+
+
+def test_a_grain_in_the_tip_of_a_tilted_box_is_inside(tmp_path: Path) -> None:
+    deck = """
+units si
+dimension 2
+boundary f p p
+atom_style sphere
+newton off
+comm_modify vel yes
+region box prism 0 0.1 0 0.1 -0.005 0.005 0.04 0 0
+create_box 1 box
+cdem/create 1 row 0.12 0.08 0.12 0.08 1 diameter 0.004 density 26.5
+pair_style cdem law direct
+pair_coeff * * 1e6 0 0 0 0
+fix move all cdem/integrate dt auto
+neighbor 4e-4 bin
+neigh_modify delay 0 every 1 check no
+MORE
+run 10
+print "n = $(count(all))"
+"""
+    assert run(deck.replace("MORE", ""), tmp_path / "inside").printed("n") == 1  # there x is from 0.032 to 0.132
+    status, output = start(deck.replace("MORE", "velocity all set 10 0 0\nrun 2000"), tmp_path / "gone")
+    assert status != 0 and "atom 1 has left the box" in output

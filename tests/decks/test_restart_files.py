@@ -4,11 +4,12 @@ whatever the sides of the box. And the rescue file of a run that blows up."""
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
 import pytest
-from engine import run, same_bits, start
+from engine import Disc, run, same_bits, start
 from scenes import cloud
 
 # Grains fly through a box, are drawn over the border again and again, and fall on a floor.
@@ -77,6 +78,64 @@ def test_a_rescue_file_can_be_read(tmp_path: Path, sides: str, ranks: int) -> No
     _fail(tmp_path, deck, **options)
     read = 'newton off\nprocessors ${px} ${py} 1\nread_restart rescue.restart\nprint "atoms = $(atoms)"\n'
     assert run(read, tmp_path, ranks=ranks).printed("atoms") == 16
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize(
+    "more", ["change_box all triclinic", "change_box all triclinic\nfix flow all deform 1 xy erate 1 remap none"]
+)
+def test_a_rescue_file_of_a_tilted_box_can_be_read(tmp_path: Path, more: str, ranks: int) -> None:
+    _fail(tmp_path, RESCUE.replace("MORE", more), bx="p", by="p", ranks=ranks)
+    read = 'newton off\nprocessors ${px} ${py} 1\nread_restart rescue.restart\nprint "atoms = $(atoms)"\nprint "tilt = $(xy)"\n'
+    done = run(read, tmp_path, ranks=ranks)
+    assert done.printed("atoms") == 16
+    tilt = 0.06 * 4999 * 2e-7 if "deform" in more else 0  # height x rate x time: the copy is made before fix flow acts
+    assert done.printed("tilt") == pytest.approx(tilt, rel=1e-9)
+
+
+AUDITED = """
+compute energy all cdem/energy audit yes
+variable drag equal c_energy[7]
+thermo_style custom step v_drag
+"""
+
+
+def test_the_books_in_a_rescue_file_are_those_of_its_step(tmp_path: Path) -> None:
+    """Not those of its step and, of all ranks but the first, of what came after."""
+    deck = RESCUE.replace("MORE", AUDITED).replace("rescue rescue.restart", "rescue rescue.restart drag 1e-3")
+    deck = deck.replace("run 30000", "run 5000\nprint 'before = $(v_drag)'\nrun 25000")
+    box = (-0.03, 0.03, -0.03, 0.03)
+    run("include ${decks}/start.in\n", tmp_path, discs=cloud(4, 2), box=box)
+    status, output = start(deck, tmp_path, ranks=2, bx="p", by="p")
+    assert status != 0
+    found = re.search(r"^before = ([0-9.e-]+)$", output, re.M)
+    assert found
+    go_on = (
+        "newton off\nprocessors ${px} ${py} 1\nread_restart rescue.restart\ncomm_modify vel yes\n"
+        "fix move grains cdem/integrate drag 1e-3\ntimestep 2e-7\n" + AUDITED + "run 0\nprint 'after = $(v_drag)'\n"
+    )
+    assert run(go_on, tmp_path, ranks=2).printed("after") == pytest.approx(float(found[1]), rel=1e-6)
+
+
+CUT = """include ${decks}/start.in
+group other id 3
+fix move grains cdem/integrate gravity 0 -600
+fix calm other momentum 100 linear 1 1 0
+timestep 1e-7
+RUN
+include ${decks}/end.in
+"""
+
+
+def test_a_run_may_be_cut_where_the_guard_looks(tmp_path: Path) -> None:
+    """It keeps a copy every 5000 steps; a fix that comes later in the deck changes velocities after that. The next run begins
+    with the forces of the last nevertheless, here of a grain that vibrates on a wall."""
+    discs = [Disc(0, 0, type=2), Disc(0, 0.004 - 3e-9), Disc(0.01, 0.01, vx=1)]  # half as much again as its weight
+    whole, cut = (
+        run(CUT.replace("RUN", runs), tmp_path / str(k), discs=discs, hn=1e-3).end
+        for k, runs in enumerate(("run 10000", "run 5000\nrun 5000"))
+    )
+    assert same_bits(whole, cut)
 
 
 def test_the_guard_has_the_last_word_beside_fix_deposit(tmp_path: Path) -> None:

@@ -368,3 +368,36 @@ run 50
         return min(float(run(deck, tmp_path, n=n).thermo["CPU"][-1]) for _ in range(3))
 
     assert seconds(4000) < 20 * seconds(500)
+
+
+def test_pairs_of_a_wall_whose_pieces_come_first(tmp_path: Path) -> None:
+    """What LAMMPS sums over pairs of atoms is the energy of the one contact, kn overlap^2/2, whichever atom is asked."""
+    deck = """
+units lj
+dimension 2
+boundary f f p
+atom_style sphere
+newton off
+comm_modify vel yes
+region box block 0 10 0 10 -0.5 0.5
+create_box 2 box
+fix shape all cdem/shape type 1 single type 2 line 1 0
+cdem/create 2 row 4 1 6 1 3 diameter 2 density 1
+cdem/create 1 row 5 1.999 5 1.999 1 diameter 1 density 1
+group g type 1
+pair_style cdem law direct
+pair_coeff * * 1e4 0 0 0 0
+fix move g cdem/integrate dt any
+timestep 1e-4
+compute pairs all pair/local eng force
+compute sums all reduce sum c_pairs[1] c_pairs[2]
+thermo_style custom pe c_sums[1] c_sums[2]
+thermo_modify norm no
+run 0
+print "energy = $(c_sums[1])"
+print "force = $(c_sums[2])"
+"""
+    done = run(deck, tmp_path)
+    overlap = 0.5 * 1 + 0.5 - 0.999
+    assert done.printed("energy") == pytest.approx(1e4 * overlap**2 / 2)
+    assert done.printed("force") == pytest.approx(1e4 * overlap)

@@ -210,3 +210,25 @@ def test_free_fall_from_the_first_step(tmp_path: Path, ranks: int, first: str) -
     out = run(ORDER, tmp_path, discs=[Disc(0, 0)], ranks=ranks, first=first).end
     assert out["vy"][0] == pytest.approx(-100 * 5e-6, rel=1e-14)
     assert out["y"][0] == pytest.approx(-100 * 5e-6**2 / 2, rel=1e-14)
+
+
+@pytest.mark.parametrize("order", ["move shape", "shape move"])
+def test_the_step_is_that_of_the_masses_that_shape_sets(tmp_path: Path, order: str) -> None:
+    """In whatever order the fixes are defined: the limit of a run is that of the next."""
+    fixes = {
+        "move": "fix move grains cdem/integrate dt auto",
+        "shape": "fix shape all cdem/shape type 1 triple type 2 single density 26.5",
+    }
+    deck = (
+        "include ${decks}/start.in\n"
+        + "\n".join(fixes[name] for name in order.split())
+        + """
+set group all diameter 0.004
+run 0
+print "first = $(f_move)"
+run 0
+print "second = $(f_move)"
+"""
+    )
+    done = run(deck, tmp_path, discs=[Disc(0, 0, 0.4), Disc(0.01, 0.01, type=2)], box=(-1, 1, -1, 1))
+    assert done.printed("first") == done.printed("second")

@@ -421,3 +421,21 @@ def test_a_moved_wall_knows_a_time_step_that_changed(tmp_path: Path, how: str, s
     """
     done = run(deck, tmp_path, discs=[Disc(0, 0), Disc(0.01, 0, type=2)], style=style)
     assert done.thermo["f_wall[1]"][-1] == pytest.approx(2 * 1.25e-4, rel=1e-6)
+
+
+def test_a_wall_moves_on_without_our_integrator(tmp_path: Path) -> None:
+    deck = """
+include ${decks}/start.in
+fix move grains cdem/integrate
+fix wall walls cdem/move speed 1
+timestep 1e-7
+run 10
+unfix move
+pair_style gran/hooke/history 1e6 NULL 0 NULL 0.5 0
+pair_coeff * *
+fix move grains nve/sphere disc
+run 10
+print "way = $(f_wall[1])"
+"""
+    done = run(deck, tmp_path, discs=[Disc(0.01, 0.01), Disc(0, 0, type=2)], style="verlet")
+    assert done.printed("way") == pytest.approx(2e-6, abs=2**-50)

@@ -89,7 +89,14 @@ ContactReport::OfPair ContactReport::of_pair(int i, int j) const {
     sum.ft += c.ft;
     sum.es += list.pairs.es(k);
   };
-  for (int p = rows.rows_of(i); p < rows.rows_of(i + 1); p++)
-    list.by_disc().for_each(p, add);
+  // Contacts with a piece of a line have the row of its foot.
+  if (!rows.is_line(rows.rows_of(i)))
+    for (int p = rows.rows_of(i); p < rows.rows_of(i + 1); p++)
+      list.by_disc().for_each(p, add);
+  else
+    list.pairs.for_each([&](int k, const cdem::Material &) {
+      if (rows.grain(list.pairs.a(k)) == i || rows.grain(list.pairs.b(k)) == i)
+        add(k);
+    });
   return sum;
 }

@@ -322,7 +322,10 @@ void DiscPairList::find_pairs() {
     int p, q, segment; // rows; p is of the grain of the lower id
   };
   std::vector<Found> found;
-  found.reserve(std::accumulate(neighbours->numneigh, neighbours->numneigh + atom->nlocal, std::size_t(0)));
+  std::size_t most = 0; // of atoms that are in LAMMPS's list: neigh_modify include leaves out others
+  for (int ii = 0; ii < neighbours->inum; ii++)
+    most += neighbours->numneigh[neighbours->ilist[ii]];
+  found.reserve(most);
   for (int ii = 0; ii < neighbours->inum; ii++)
     for_each_candidate(neighbours->ilist[ii], [&](int p, int q, double square) {
       const int i = rows.grain(p), j = rows.grain(q), segment = segment_of(i, j);
@@ -450,14 +453,23 @@ const cdem::PairForce &DiscPairList::force(int k) const {
   return pairs.force[k];
 }
 
-// Grains that arrive in this step have no rows yet, and may have taken the place of ghosts among the atoms.
+// Grains that arrive in this step have no rows yet, and may have taken the place of ghosts among the atoms. A fix that
+// has moved or taken away grains of some ranks has had their histories moved to the grains: then nobody's list is
+// whole.
 void DiscPairList::close_list() {
-  if (audit && has_history) {
+  if (audit && all_have_history()) {
     rows.fill(0, block_starts.back(), 0);
     exchange_ghosts();
     finish_step_in_books();
   }
   move_history_to_grains();
+}
+
+bool DiscPairList::all_have_history() const {
+  const int mine = has_history;
+  int all;
+  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MIN, world);
+  return all;
 }
 
 // The rows have moved, and a new list will not know the dashpots' forces at the beginning of this step. This books the

@@ -110,6 +110,7 @@ private:
   int most_pairs() const;
   void pair_forces(int block);
   void look_at_forces(int block, const LookAtForce &);
+  bool all_have_history() const;
   void finish_step_in_books();
 
   double most_moved() const;

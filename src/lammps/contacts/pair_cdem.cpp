@@ -105,6 +105,8 @@ void PairCDEM::check_setting() const {
     error->all(FLERR, "Pair style cdem needs 'comm_modify vel yes'");
   if (!grains || !grains->are_moved())
     error->all(FLERR, "Pair style cdem needs a fix cdem/integrate: atoms outside its group are walls");
+  if (const auto *shape = FixCDEMShape::find(lmp))
+    shape->set_masses(); // pair styles are prepared before fixes, which may be defined in any order
   if (update->whichflag == 2)
     error->all(FLERR, "Pair style cdem: minimize makes no time steps, which contacts need; use run, with drag");
   if (Shearbox::command_in_work(lmp) == "rerun")

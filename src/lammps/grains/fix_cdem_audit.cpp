@@ -45,6 +45,5 @@ void FixCDEMAudit::restart(char *buf) {
   const auto saved = Shearbox::read_state<Saved>(lmp, style, buf);
   opening = saved.opening;
   open = saved.open != 0;
-  if (comm->me == 0)
-    books = saved.books;
+  books = comm->me == 0 ? saved.books : Books{}; // the sum over all ranks
 }

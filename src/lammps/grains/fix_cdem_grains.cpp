@@ -84,9 +84,13 @@ void FixCDEMGrains::restore_forces() const {
 
 // Between runs nothing is kept: the scene may have changed since the forces were computed.
 void FixCDEMGrains::keep_scene() {
+  copy_scene();
+  scene_is_new = false;
+}
+
+void FixCDEMGrains::copy_scene() {
   if (!scene_is_new)
     return;
-  scene_is_new = false;
   if (!Shearbox::fixes_after_forces(modify))
     keep_forces();
   for (int i = 0; i < atom->nlocal; i++) {

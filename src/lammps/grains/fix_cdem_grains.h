@@ -70,6 +70,7 @@ public:
   void set_rules(std::uint64_t fingerprint) { rules = fingerprint; }
   // After a step, keeps the scene; all ranks together.
   void keep_scene();
+  void copy_scene(); // the same for a copy of the atoms, after which the step may go on
   // Whether the scene is the one that was kept, on all ranks together. Commands may have moved an atom by a period of
   // the box, or by a rounding error (balance shift): then it is put back where it was.
   bool scene_is_as_kept();

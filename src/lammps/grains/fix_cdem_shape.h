@@ -68,6 +68,8 @@ public:
   double compute_array(int, int) override;
   void set_arrays(int) override;
 
+  // Sets the masses of the group's grains, where there is a density: before anybody looks at them as a run is prepared.
+  void set_masses() const;
   // The angle of a grain that is new (rad).
   double first_angle(int i) const;
 
@@ -76,7 +78,6 @@ private:
   cdem::GrainShape read_line(Shearbox::DeckWords &) const;
   std::vector<cdem::GrainShape::Member> read_discs(Shearbox::DeckWords &) const;
   std::vector<cdem::GrainShape::Member> read_file(const std::string &name) const;
-  void set_masses() const;
   void refuse_masses_of_circles() const;
   double share(int type) const; // of the circle that the discs fill
   void set_mass(int i) const;

@@ -258,7 +258,13 @@ void FixCDEMIntegrate::take_accelerations() {
 }
 
 // Grains may have come.
-void FixCDEMIntegrate::post_neighbor() { settle_angles(); }
+void FixCDEMIntegrate::post_neighbor() {
+  settle_angles();
+  if (!step.sees_first_grains())
+    return;
+  grains->weight = step.prediction_weight();
+  guard.set_limits(smallest_disc(), step.scene_limit());
+}
 
 void FixCDEMIntegrate::settle_angles() {
   const FixCDEMShape *const shape = FixCDEMShape::find(lmp);

@@ -25,9 +25,13 @@ struct Located {
 };
 } // namespace
 
-void Guard::begin(double smallest_radius, double step_limit) {
+void Guard::set_limits(double smallest_radius, double step_limit) {
   limit = step_limit;
   allowed = LARGEST_SHARE * smallest_radius;
+}
+
+void Guard::begin(double smallest_radius, double step_limit) {
+  set_limits(smallest_radius, step_limit);
   if (automatic && atom->natoms > MOST_ATOMS * comm->nprocs)
     file.clear();
   rescue.clear();
@@ -67,9 +71,14 @@ void Guard::check() {
 
 bool Guard::outside(int i) const {
   constexpr int FIXED = 1;
+  double place[3] = {atom->x[i][0], atom->x[i][1], 0};
+  if (domain->triclinic)
+    domain->x2lamda(place, place);
+  const double *const low = domain->triclinic ? domain->boxlo_lamda : domain->boxlo;
+  const double *const high = domain->triclinic ? domain->boxhi_lamda : domain->boxhi;
   for (int k = 0; k < 2; k++)
-    if ((domain->boundary[k][0] == FIXED && atom->x[i][k] < domain->boxlo[k]) ||
-        (domain->boundary[k][1] == FIXED && atom->x[i][k] >= domain->boxhi[k]))
+    if ((domain->boundary[k][0] == FIXED && place[k] < low[k]) ||
+        (domain->boundary[k][1] == FIXED && place[k] >= high[k]))
       return true;
   return false;
 }

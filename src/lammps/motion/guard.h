@@ -27,8 +27,9 @@ public:
     automatic = false;
   }
 
-  // At the start of a run: takes the smallest radius of a disc (m), and for messages the stability limit of the scene
-  // (s).
+  // Smallest radius of a disc (m), and for messages the stability limit of the scene (s).
+  void set_limits(double smallest_radius, double step_limit);
+  // At the start of a run.
   void begin(double smallest_radius, double step_limit);
   // Whether grains that moved by up to `moved` in a step (m) have to be checked; true if it is NaN.
   bool suspects(double moved) const { return !(moved <= allowed); }

@@ -27,13 +27,14 @@ void Rescue::take() {
   copy.step = update->ntimestep;
   std::copy_n(domain->boxlo, 3, copy.low);
   std::copy_n(domain->boxhi, 3, copy.high);
+  copy.tilt = domain->xy;
   pack_atoms(copy);
   ask_fixes(copy);
 }
 
 void Rescue::pack_atoms(Copy &copy) {
   FixCDEMHistory::find(lmp)->copy_from_list();
-  FixCDEMGrains::find(lmp)->keep_scene();
+  FixCDEMGrains::find(lmp)->copy_scene();
   constexpr int EXTRA = 1024; // as much as LAMMPS's own buffers have in reserve
   int largest = atom->avec->maxexchange + EXTRA;
   for (int k = 0; k < modify->nfix; k++)
@@ -99,8 +100,7 @@ bigint Rescue::write(const std::string &file) {
   update->ntimestep = copy.step; // some fixes refuse a state of another step
   restore_box(copy);
   unpack_atoms(copy);
-  domain->pbc();
-  domain->reset_box(); // a shrink-wrapped one: around the atoms
+  wrap_atoms();
   tell_fixes(copy);
   std::string name = file, without_setup = "noinit";
   char *words[] = {name.data(), without_setup.data()};
@@ -112,9 +112,21 @@ bigint Rescue::write(const std::string &file) {
 void Rescue::restore_box(const Copy &copy) {
   std::copy_n(copy.low, 3, domain->boxlo);
   std::copy_n(copy.high, 3, domain->boxhi);
+  domain->xy = copy.tilt;
   domain->set_initial_box(0);
   domain->set_global_box();
   domain->set_local_box();
+  if (domain->triclinic)
+    domain->set_lamda_box();
+}
+
+void Rescue::wrap_atoms() {
+  if (domain->triclinic)
+    domain->x2lamda(atom->nlocal);
+  domain->pbc();
+  domain->reset_box(); // a shrink-wrapped one: around the atoms
+  if (domain->triclinic)
+    domain->lamda2x(atom->nlocal);
 }
 
 double Rescue::bytes() const {

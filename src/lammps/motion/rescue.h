@@ -33,12 +33,13 @@ private:
   struct Copy {
     bigint step = -1; // -1: none
     int natoms = 0;
-    double low[3] = {}, high[3] = {}; // the box
+    double low[3] = {}, high[3] = {}, tilt = 0; // the box
     std::vector<double> atoms;
     std::map<std::string, std::string> fixes; // what each writes into restart files, by its id; on the first rank only
   };
 
   void restore_box(const Copy &);
+  void wrap_atoms();
   void pack_atoms(Copy &);
   void unpack_atoms(Copy &);
   void ask_fixes(Copy &);

@@ -49,6 +49,15 @@ void StepChoice::init() {
   apply();
 }
 
+bool StepChoice::sees_first_grains() {
+  if (std::isfinite(limit))
+    return false;
+  limit = scene_minimum(cdem::step_limit);
+  if (rule != Rule::any)
+    refuse_beyond_limit();
+  return std::isfinite(limit);
+}
+
 double StepChoice::prediction_weight() const {
   const double dt = update->dt;
   const double least =
@@ -82,14 +91,19 @@ void StepChoice::apply() {
 void StepChoice::check() const {
   if (!(update->dt > 0 && std::isfinite(update->dt)))
     error->all(FLERR, "Fix cdem/integrate: the time step {} must be positive", update->dt);
-  if (rule == Rule::check && update->dt > limit)
+  if (rule == Rule::check)
+    refuse_beyond_limit();
+  if (chooses() && update->dt > chosen)
+    error->all(FLERR, "Fix cdem/integrate: the time step {:.4g} is larger than {:.4g}, which {} has chosen", update->dt,
+               chosen, rule == Rule::automatic ? "dt auto" : "dt contacts");
+}
+
+void StepChoice::refuse_beyond_limit() const {
+  if (update->dt > limit)
     error->all(FLERR,
                "Fix cdem/integrate: the time step {:.4g} is beyond the stability limit {:.4g} of this scene (smallest "
                "grain, stiffest contact); take a smaller one, 'dt auto', or 'dt any' to run nevertheless",
                update->dt, limit);
-  if (chooses() && update->dt > chosen)
-    error->all(FLERR, "Fix cdem/integrate: the time step {:.4g} is larger than {:.4g}, which {} has chosen", update->dt,
-               chosen, rule == Rule::automatic ? "dt auto" : "dt contacts");
 }
 
 double StepChoice::at_most_max(double step) const {
@@ -114,8 +128,13 @@ void StepChoice::set_step(double step) {
                    limit);
 }
 
+double StepChoice::limit_of_contacts() { return contacts.find(guess(), INFINITY); }
+
+// Of a scene to which grains came in the run that began without any, no limit is known.
+double StepChoice::guess() const { return std::isfinite(limit) ? limit : update->dt; }
+
 void StepChoice::choose_by_contacts() {
-  const double stable = contacts.find(limit, INFINITY);
+  const double stable = limit_of_contacts();
   if (!std::isfinite(stable))
     return;
   if (comm->me == 0)
@@ -129,7 +148,7 @@ void StepChoice::choose_by_contacts() {
 void StepChoice::compare_with_contacts() {
   if (warned)
     return;
-  const double stable = contacts.find(limit, update->dt);
+  const double stable = contacts.find(guess(), update->dt);
   warned = update->dt > stable;
   if (warned && comm->me == 0)
     error->warning(FLERR,

@@ -26,6 +26,8 @@ public:
   void check() const;
   // When a run is prepared: computes the limit of the present scene, and chooses or checks the step by it.
   void init();
+  // When grains have come into a run that began without any, for which there was no limit: whether that is so.
+  bool sees_first_grains();
   // Whether that of `dt contacts` has yet to be chosen: not if that was done in an earlier run.
   bool is_to_be_chosen() const { return rule == Rule::contacts && kept_step == 0; }
   // When contacts are known: chooses it.
@@ -35,6 +37,8 @@ public:
   void compare_with_contacts();
 
   double scene_limit() const { return limit; }
+  // Stability limit of the present contacts (s), all ranks together.
+  double limit_of_contacts();
   // Share of half a step by which the dashpots' velocity can be carried forward with the present step.
   double prediction_weight() const;
 
@@ -46,7 +50,9 @@ private:
 
   template <class Value> double scene_minimum(Value) const;
   bool chooses() const { return rule == Rule::automatic || rule == Rule::contacts; }
+  double guess() const;
   void apply();
+  void refuse_beyond_limit() const;
   double at_most_max(double step) const;
   void set_step(double step);
 

@@ -50,6 +50,10 @@ std::string VerletCDEM::hindrance() const {
     return "there is no fix cdem/integrate";
   if (force->bond || force->angle || force->dihedral || force->improper || force->kspace)
     return "there are other forces than those of pair style cdem";
+  constexpr int DEFORMS = Fix::BOX_CHANGE_SIZE | Fix::BOX_CHANGE_SHAPE;
+  for (int i = 0; i < modify->nfix; i++)
+    if (const Fix &fix = *modify->fix[i]; fix.box_change & DEFORMS)
+      return std::string("fix ") + fix.id + " of style " + fix.style + " changes the box, which moves images of grains";
   for (int i = 0; i < modify->nfix; i++)
     // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): none is null, as it takes from the casts in init()
     if (const Fix &fix = *modify->fix[i]; acts_in_every_step(fix, modify->fmask[i]))

@@ -45,7 +45,7 @@ void WallBody::init() {
 
   audit = FixCDEMAudit::find(lmp);
   grains = FixCDEMGrains::find(lmp);
-  if (grains)
+  if (grains && grains->are_moved())
     if (const bigint n = count_also_in(group->bitmask[grains->group_of_grains()]))
       error->all(FLERR, "Fix {} {}: {} atoms of group {} are also in group {}, which fix cdem/integrate moves", style,
                  id, n, name, group->names[grains->group_of_grains()]);
