@@ -216,7 +216,7 @@ int FixCDEMGrains::unpack_exchange(int i, double *buf) {
 
 // LAMMPS calls this before it packs the grains.
 void FixCDEMGrains::write_restart(FILE *fp) {
-  keep_scene();
+  copy_scene();
   if (comm->me == 0)
     Shearbox::write_state(fp, kept);
 }
