@@ -243,7 +243,7 @@ read_restart  good.restart
 comm_modify   vel yes
 neighbor      0.001 bin
 fix           move grains cdem/integrate
-fix           floor floor cdem/move speed 0.002
+fix           floor floor cdem/move speed 0.002 dir x ramp 1e-4 stop 0.008
 fix           lid lid cdem/lid stress 1e5 width 0.02 thickness 0.01
 run           20
 """
