@@ -19,7 +19,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 using namespace LAMMPS_NS;
 

@@ -131,11 +131,9 @@ void FixCDEMMove::restart(char *buf) {
   clock = saved.clock;
   now = motion();
   if (now.s != saved.s || (now.s != 0 && vertical != saved.vertical))
-    error->all(
-        FLERR,
-        "Fix cdem/move {}: in the restart file the wall has moved by {:.9g} m along {} in {:.9g} s; by this speed, "
-        "ramp, "
-        "stop and dir it would be {:.9g} m along {}: give those it had; to move anew, define fix {} with speed 0 and "
-        "unfix it before",
-        id, saved.s, saved.vertical ? "y" : "x", clock.time(), now.s, vertical ? "y" : "x", id);
+    error->all(FLERR,
+               "Fix cdem/move {}: in the restart file the wall has moved by {:.9g} m along {} in {:.9g} s; by this "
+               "speed, ramp, stop and dir it would be {:.9g} m along {}: give those it had; to move anew, define fix "
+               "{} with speed 0 and unfix it before",
+               id, saved.s, saved.vertical ? "y" : "x", clock.time(), now.s, vertical ? "y" : "x", id);
 }
