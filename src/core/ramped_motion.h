@@ -46,4 +46,17 @@ struct MotionClock {
   }
 };
 
+// What restart files have of the motion of a wall.
+struct KeptMotion {
+  MotionClock clock;
+  double s; // m
+  bool along_y;
+
+  // Whether the wall is where another motion would have brought it by now, so that this one can go on with it.
+  bool is_on(const RampedMotion &path, bool path_along_y) const {
+    const double there = path.at(clock.time()).s;
+    return there == s && (there == 0 || path_along_y == along_y);
+  }
+};
+
 } // namespace cdem

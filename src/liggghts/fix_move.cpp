@@ -64,22 +64,22 @@ double FixMove::compute_vector(int n) {
 void FixMove::write_restart(FILE *file) {
   if (comm->me != 0)
     return;
-  const Saved saved{clock, now.s, vertical};
+  const cdem::KeptMotion saved{clock, now.s, vertical};
   const int size = sizeof saved;
   std::fwrite(&size, sizeof size, 1, file);
   std::fwrite(&saved, sizeof saved, 1, file);
 }
 
 void FixMove::restart(char *state) {
-  Saved saved;
+  cdem::KeptMotion saved;
   std::memcpy(&saved, state, sizeof saved);
   if (path.speed == 0)
     return;
   clock = saved.clock;
   now = at_present();
-  if (now.s != saved.s || (now.s != 0 && vertical != bool(saved.vertical)))
+  if (!saved.is_on(path, vertical))
     stop(lmp, "Fix cdem/move ", id, ": in the restart file the wall has moved by ", saved.s, " m along ",
-         saved.vertical ? "y" : "x", " in ", clock.time(), " s; by this speed, ramp, stop and dir it would be ", now.s,
+         saved.along_y ? "y" : "x", " in ", clock.time(), " s; by this speed, ramp, stop and dir it would be ", now.s,
          " m along ", vertical ? "y" : "x", ": give those it had");
 }
 

@@ -33,12 +33,6 @@ public:
 private:
   enum Output { DISPLACEMENT, SPEED, FORCE_X, FORCE_Y, NOUTPUTS };
 
-  struct Saved {
-    cdem::MotionClock clock;
-    double s; // m
-    int vertical;
-  };
-
   cdem::RampedMotion::State at_present() const { return path.at(clock.time()); }
   Vector along(double amount) const { return vertical ? Vector{0, amount} : Vector{amount, 0}; }
   void apply() const { set_motion(along(now.speed), along(now.acceleration)); }

@@ -25,6 +25,7 @@ create_box  2 box
 neighbor    0.2 bin
 neigh_modify delay 0
 """
+PERIODIC = BOX.replace("boundary    f f p", "boundary    p f p")
 PAIR = "pair_style cdem law direct\npair_coeff * * 1e4 2.5e3 0 0 0\n"
 END = """
 dump        end all custom 1 end.dump id type x y vx vy mass radius f_move[4]
@@ -209,7 +210,7 @@ def test_the_limit_of_contacts_of_grains_that_came(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("style", ["verlet", "verlet/cdem"])
 def test_a_grain_that_goes_from_one_rank_alone_hangs_no_audit(tmp_path: Path, style: str) -> None:
-    deck = f"""{BOX.replace("boundary    f f p", "boundary    p f p")}
+    deck = f"""{PERIODIC}
 create_atoms 1 single 0.4999 2 0
 create_atoms 1 single 9.5001 2 0
 create_atoms 1 single 2.5 8 0
@@ -226,3 +227,36 @@ run         20
 print       "grains = $(count(all))"
 """
     assert run(deck, tmp_path, ranks=2).printed("grains") == 2
+
+
+COLLISION = f"""{PERIODIC}
+${{shape}}
+create_atoms 1 single 0.4999 2 0
+create_atoms 1 single 9.5001 2 0
+set         group all diameter 1 density/disc 1.2732395447351628
+velocity    all set 1 0 0
+set         atom 1 vx -1
+group       sand type 1
+region      place block 1.5 8.5 4 9 0 0
+fix         rain sand deposit ${{count}} 1 20 4711 region place near 1.1 units box
+{PAIR.replace("1e4 2.5e3 0 0 0", "1e4 0 0.215 0 0")}
+fix         move sand cdem/integrate dt any
+timestep    1e-4
+compute     energy all cdem/energy audit yes
+thermo_style custom step atoms c_energy[6]
+thermo_modify format float %.17g norm no
+run         400
+"""
+
+
+@pytest.mark.parametrize("ranks", [1, 2, 4])
+@pytest.mark.parametrize("shape", ["", "fix form all cdem/shape type 1 triple type 2 single"], ids=["disc", "triple"])
+def test_dashpots_of_a_collision_as_grains_arrive(tmp_path: Path, shape: str, ranks: int) -> None:
+    """Across a border, while fix deposit, which comes first, brings grains far away: they have no rows yet as the books of
+    the step are closed, and take the place of ghosts. The losses are those without them."""
+    with_them, without = (
+        run(COLLISION, tmp_path / str(count), shape=shape, count=count, ranks=ranks).thermo["c_energy[6]"][-1]
+        for count in (10, 0)
+    )
+    assert without > 0.2
+    assert with_them == pytest.approx(without, rel=1e-9)

@@ -24,52 +24,6 @@ PARTS = (
     "residual",
 )
 
-ARRIVALS = """
-units       lj
-dimension   2
-boundary    p f p
-processors  ${px} ${py} 1
-atom_style  sphere
-atom_modify map array
-newton      off
-comm_modify vel yes
-region      box block 0 20 0 20 -0.5 0.5
-create_box  2 box
-${shape}
-create_atoms 1 single 0.4999 2 0
-create_atoms 1 single 19.5001 2 0
-set         group all diameter 1 density/disc 1.2732395447351628
-velocity    all set 1 0 0
-set         atom 1 vx -1
-group       sand type 1
-region      place block 2 18 6 18 0 0
-fix         rain sand deposit 40 1 10 4711 region place near 1.2 units box
-pair_style  cdem law direct
-pair_coeff  * * 1e4 0 ${h} 0 0
-fix         move sand cdem/integrate dt any
-neighbor    0.2 bin
-neigh_modify delay 0
-timestep    1e-4
-compute     energy all cdem/energy audit yes
-thermo_style custom step atoms c_energy[*]
-thermo_modify format float %.17g norm no
-run         400
-"""
-
-
-@pytest.mark.parametrize("shape", ["", "fix form all cdem/shape type 1 triple type 2 single"], ids=["disc", "triple"])
-def test_dashpots_of_a_collision_as_grains_arrive(tmp_path: Path, shape: str, ranks: int) -> None:
-    """Across a border, while fix deposit, which comes first, brings grains far away: they have no rows yet as the books of
-    the step are closed, and take the place of ghosts. The losses are those without them."""
-    none = ARRIVALS.replace("deposit 40", "deposit 0")
-    with_them, without = (
-        books(deck, tmp_path / name, shape=shape, ranks=ranks, h=0.215)
-        for name, deck in (("with", ARRIVALS), ("without", none))
-    )
-    assert without["dashpots"] > 0.2
-    assert with_them["dashpots"] == pytest.approx(without["dashpots"], rel=1e-9)
-
-
 ADDED = "rolling 0.3 0.2 cohesion 40"
 
 AUDIT = """

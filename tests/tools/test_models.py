@@ -11,21 +11,20 @@ import pytest
 
 from shearbox_tools.errors import InputError, ShearboxError
 from shearbox_tools.grains import area_over_largest
-from shearbox_tools.models import INPUT, find_model, model_files, read_model, read_variables
+from shearbox_tools.models import INPUT, all_models, find_model, model_files, read_model, read_variables
 from shearbox_tools.named import model_text
 from shearbox_tools.parameters import parameters
 from shearbox_tools.presets import LAWS
 from shearbox_tools.table import print_models
 
-MODELS = [read_model(path) for path in model_files()]
 NAME = re.compile(r"Type[A-D]_(\d+)x(\d+)_(?:T-(\d)|(\d)-(\d))_([13])-circle_(\d+)")
 
 
 def test_there_are_fourteen():
-    assert len(MODELS) == 14
+    assert len(all_models()) == 14
 
 
-@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
+@pytest.mark.parametrize("model", all_models(), ids=lambda model: model.name)
 def test_the_name_encodes_the_numbers(model):
     width, half_height, equal, low, high, discs, grains = NAME.fullmatch(model.name).groups()
     assert model.width == pytest.approx(int(width) / 100)
@@ -79,14 +78,14 @@ def test_a_name_that_cannot_be_meant_says_what_is_allowed(name, message):
 def test_the_table_names_them_all(capsys):
     print_models()
     table = capsys.readouterr().out
-    assert all(model.name in table for model in MODELS)
+    assert all(model.name in table for model in all_models())
     assert "10 × 10" in table and "n(d) ∝ d^-3" in table
 
 
 def test_the_same_for_scripts(capsys):
     print_models(as_json=True)
     models = {model["name"]: model for model in json.loads(capsys.readouterr().out)}
-    assert set(models) == {model.name for model in MODELS}
+    assert set(models) == {model.name for model in all_models()}
     one = models["TypeA_10x5_2-4_3-circle_350"]
     assert (one["discs"], one["ngrains"], one["dmin"], one["width"], one["shape"]) == (3, 350, 0.002, 0.1, "triple")
 

@@ -10,14 +10,11 @@ from test_run import MODEL, SHEARBOX, UNDRAWN, command, shearbox
 
 from shearbox_tools.checks import check
 from shearbox_tools.errors import InputError, ShearboxError
-from shearbox_tools.models import INPUT, PARAMETERS, find_model, model_files, read_model, read_variables
+from shearbox_tools.models import INPUT, PARAMETERS, all_models, find_model, read_variables
 from shearbox_tools.parameters import parameters, read_settings
 from shearbox_tools.phases import packing
 from shearbox_tools.request import OWN_OPTION, Request, recorded
 from shearbox_tools.table import print_parameters
-
-
-MODELS = [read_model(path) for path in model_files()]
 
 
 def test_all_variables_of_the_decks_have_a_range():
@@ -26,8 +23,8 @@ def test_all_variables_of_the_decks_have_a_range():
     follows = {name for name in read_variables(PARAMETERS) if name not in known}
     assert follows == {"areal", "wall_types"}
     assert [p.name for p in known.values() if p.value is not None and p.problem(p.value)] == []
-    assert {name for model in MODELS for name in model.variables} <= set(known)
-    for model in MODELS:
+    assert {name for model in all_models() for name in model.variables} <= set(known)
+    for model in all_models():
         check(Request(model, (100.0,)))
 
 

@@ -131,6 +131,11 @@ def model_files(folder: Path = INPUT / "models") -> list[Path]:
     return paths
 
 
+def all_models(folder: Path = INPUT / "models") -> list[Model]:
+    """All models, in the order of the paper's table."""
+    return sorted((read_model(path) for path in model_files(folder)), key=table_order)
+
+
 def find_model(name: str, settings: dict[str, str] | None = None, friction: float = 0.0) -> Model:
     """The model of that name, or in that file, with other values for some of its variables; or an error that helps.
 

@@ -2,6 +2,7 @@
 #include "grains/cdem_create.h"
 
 #include "grains/fix_cdem_shape.h"
+#include "host/box_place.h"
 #include "host/compat.h"
 
 #include "atom.h"
@@ -81,31 +82,20 @@ void CDEMCreate::read_density(Words &words) {
   density = words.positive("density");
 }
 
-// Of the centre: in a tilted box, the shares of its sides.
-std::array<double, 3> CDEMCreate::coordinates(const Disc &disc) const {
-  std::array<double, 3> centre{disc.x, disc.y, 0};
-  if (domain->triclinic)
-    domain->x2lamda(centre.data(), centre.data());
-  return centre;
-}
-
 void CDEMCreate::check(const Disc &disc) const {
-  const auto centre = coordinates(disc);
-  const bool tilted = domain->triclinic;
-  const double *const low = tilted ? domain->boxlo_lamda : domain->boxlo;
-  const double *const high = tilted ? domain->boxhi_lamda : domain->boxhi;
+  const Shearbox::BoxPlace centre(domain, disc.x, disc.y);
+  const auto [low, high] = Shearbox::Borders::of_box(domain);
   for (int k = 0; k < 3; k++)
-    if (!(centre[k] >= low[k] && centre[k] < high[k]))
-      error->all(FLERR, "cdem/create: disc centre {} = {} is outside of the box, {} to {}{}", "xyz"[k], centre[k],
-                 low[k], high[k], tilted ? " in shares of its tilted sides" : "");
+    if (!(centre.at[k] >= low[k] && centre.at[k] < high[k]))
+      error->all(FLERR, "cdem/create: disc centre {} = {} is outside of the box, {} to {}{}", "xyz"[k], centre.at[k],
+                 low[k], high[k], centre.tilted ? " in shares of its tilted sides" : "");
 }
 
 bool CDEMCreate::is_mine(const Disc &disc) const {
-  const auto centre = coordinates(disc);
-  const double *const low = domain->triclinic ? domain->sublo_lamda : domain->sublo;
-  const double *const high = domain->triclinic ? domain->subhi_lamda : domain->subhi;
+  const Shearbox::BoxPlace centre(domain, disc.x, disc.y);
+  const auto [low, high] = Shearbox::Borders::of_rank(domain);
   for (int k = 0; k < 3; k++)
-    if (!(centre[k] >= low[k] && centre[k] < high[k]))
+    if (!(centre.at[k] >= low[k] && centre.at[k] < high[k]))
       return false;
   return true;
 }

@@ -23,7 +23,6 @@
 
 #include "command.h"
 
-#include <array>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -42,7 +41,6 @@ private:
   void read_density(Words &);
   void check(const Disc &) const;
   bool is_mine(const Disc &) const;
-  std::array<double, 3> coordinates(const Disc &) const;
   void create(const std::vector<Disc> &);
 
   int type = 0;

@@ -111,7 +111,7 @@ public:
   // Has the neighbour list rebuilt in the next step.
   void rebuild_next() { next_reneighbor = update->ntimestep + 1; }
   // Stability limit of the present contacts (s), all ranks together.
-  double contact_limit() { return step.limit_of_contacts(); }
+  double contact_limit() { return step.contacts.find(step.scene_limit(), INFINITY); }
 
   Guard guard;
 

@@ -120,7 +120,7 @@ double FixCDEMMove::compute_vector(int n) {
 
 void FixCDEMMove::write_restart(FILE *fp) {
   if (comm->me == 0)
-    Shearbox::write_state(fp, Saved{clock, now.s, vertical, booked});
+    Shearbox::write_state(fp, Saved{{clock, now.s, vertical}, booked});
 }
 
 void FixCDEMMove::restart(char *buf) {
@@ -128,12 +128,12 @@ void FixCDEMMove::restart(char *buf) {
   booked = saved.booked;
   if (path.speed == 0)
     return;
-  clock = saved.clock;
+  clock = saved.motion.clock;
   now = motion();
-  if (now.s != saved.s || (now.s != 0 && vertical != saved.vertical))
+  if (!saved.motion.is_on(path, vertical))
     error->all(FLERR,
                "Fix cdem/move {}: in the restart file the wall has moved by {:.9g} m along {} in {:.9g} s; by this "
                "speed, ramp, stop and dir it would be {:.9g} m along {}: give those it had; to move anew, define fix "
                "{} with speed 0 and unfix it before",
-               id, saved.s, saved.vertical ? "y" : "x", clock.time(), now.s, vertical ? "y" : "x", id);
+               id, saved.motion.s, saved.motion.along_y ? "y" : "x", clock.time(), now.s, vertical ? "y" : "x", id);
 }

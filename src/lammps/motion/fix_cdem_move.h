@@ -54,9 +54,7 @@ private:
 
   struct Saved {
     static constexpr int VERSION = 3;
-    cdem::MotionClock clock;
-    double s; // m
-    bool vertical;
+    cdem::KeptMotion motion;
     Booked booked;
   };
 

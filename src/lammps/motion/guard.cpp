@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "motion/guard.h"
 
+#include "host/box_place.h"
+
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
@@ -71,14 +73,11 @@ void Guard::check() {
 
 bool Guard::outside(int i) const {
   constexpr int FIXED = 1;
-  double place[3] = {atom->x[i][0], atom->x[i][1], 0};
-  if (domain->triclinic)
-    domain->x2lamda(place, place);
-  const double *const low = domain->triclinic ? domain->boxlo_lamda : domain->boxlo;
-  const double *const high = domain->triclinic ? domain->boxhi_lamda : domain->boxhi;
+  const Shearbox::BoxPlace place(domain, atom->x[i][0], atom->x[i][1]);
+  const auto [low, high] = Shearbox::Borders::of_box(domain);
   for (int k = 0; k < 2; k++)
-    if ((domain->boundary[k][0] == FIXED && place[k] < low[k]) ||
-        (domain->boundary[k][1] == FIXED && place[k] >= high[k]))
+    if ((domain->boundary[k][0] == FIXED && place.at[k] < low[k]) ||
+        (domain->boundary[k][1] == FIXED && place.at[k] >= high[k]))
       return true;
   return false;
 }

@@ -128,13 +128,8 @@ void StepChoice::set_step(double step) {
                    limit);
 }
 
-double StepChoice::limit_of_contacts() { return contacts.find(guess(), INFINITY); }
-
-// Of a scene to which grains came in the run that began without any, no limit is known.
-double StepChoice::guess() const { return std::isfinite(limit) ? limit : update->dt; }
-
 void StepChoice::choose_by_contacts() {
-  const double stable = limit_of_contacts();
+  const double stable = contacts.find(limit, INFINITY);
   if (!std::isfinite(stable))
     return;
   if (comm->me == 0)
@@ -148,7 +143,7 @@ void StepChoice::choose_by_contacts() {
 void StepChoice::compare_with_contacts() {
   if (warned)
     return;
-  const double stable = contacts.find(guess(), update->dt);
+  const double stable = contacts.find(limit, update->dt);
   warned = update->dt > stable;
   if (warned && comm->me == 0)
     error->warning(FLERR,

@@ -37,8 +37,6 @@ public:
   void compare_with_contacts();
 
   double scene_limit() const { return limit; }
-  // Stability limit of the present contacts (s), all ranks together.
-  double limit_of_contacts();
   // Share of half a step by which the dashpots' velocity can be carried forward with the present step.
   double prediction_weight() const;
 
@@ -50,7 +48,6 @@ private:
 
   template <class Value> double scene_minimum(Value) const;
   bool chooses() const { return rule == Rule::automatic || rule == Rule::contacts; }
-  double guess() const;
   void apply();
   void refuse_beyond_limit() const;
   double at_most_max(double step) const;

@@ -51,14 +51,15 @@ std::string VerletCDEM::hindrance() const {
   if (force->bond || force->angle || force->dihedral || force->improper || force->kspace)
     return "there are other forces than those of pair style cdem";
   constexpr int DEFORMS = Fix::BOX_CHANGE_SIZE | Fix::BOX_CHANGE_SHAPE;
-  for (int i = 0; i < modify->nfix; i++)
-    if (const Fix &fix = *modify->fix[i]; fix.box_change & DEFORMS)
-      return std::string("fix ") + fix.id + " of style " + fix.style + " changes the box, which moves images of grains";
-  for (int i = 0; i < modify->nfix; i++)
+  for (int i = 0; i < modify->nfix; i++) {
+    const Fix &fix = *modify->fix[i];
+    const std::string name = std::string("fix ") + fix.id + " of style " + fix.style;
     // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): none is null, as it takes from the casts in init()
-    if (const Fix &fix = *modify->fix[i]; acts_in_every_step(fix, modify->fmask[i]))
-      return std::string("fix ") + fix.id + " of style " + fix.style +
-             " acts in every step (for gravity and drag, fix cdem/integrate has keywords)";
+    if (acts_in_every_step(fix, modify->fmask[i]))
+      return name + " acts in every step (for gravity and drag, fix cdem/integrate has keywords)";
+    if (fix.box_change & DEFORMS)
+      return name + " changes the box, which moves images of grains";
+  }
   return "";
 }
 
