@@ -150,7 +150,7 @@ CORNER = WALL.replace("group wall type 2", "cdem/create 3 row 0.002 0.012 0.022 
 def test_around_a_corner(tmp_path: Path, ranks: int) -> None:
     """Pulled to the corner of two walls, a disc slides up the first, around the corner, and along the second. Only one of
     them acts at a time: the undamped motion keeps its energy, and the disc does not turn. (Incremental accumulation loses
-    overlap as the normal turns.)"""
+    overlap as the normal turns.) The corner is the first one's, which has the lower ids."""
     pull = (
         GRAIN.replace("gravity ${gx} ${gy}", "")
         + """
@@ -158,17 +158,24 @@ variable r atom sqrt(x^2+(y-0.012)^2)
 variable fx atom -3e4*mass*x/v_r
 variable fy atom -3e4*mass*(y-0.012)/v_r
 variable depth atom 3e4*mass*v_r
+group first type 2
+group second type 3
+compute walls wall cdem/force first second
 fix pull grains addforce v_fx v_fy 0 energy v_depth
 fix_modify pull energy yes
 """
     )
-    out = run(CORNER + pull + END, tmp_path, law="direct", ranks=ranks, **dict(UPRIGHT, hn=0, spin=0), x=-0.004 + 3e-8, y=0.0085,
-              gvx=0, gvy=2, gx=0, gy=0, every=100, steps=8000)  # fmt: skip
+    out = run(CORNER + pull + END.replace("pe ke", "pe ke c_walls[*]"), tmp_path, law="direct", ranks=ranks,
+              **dict(UPRIGHT, hn=0, spin=0), x=-0.004 + 3e-8, y=0.0085, gvx=0, gvy=2, gx=0, gy=0, every=100, steps=8000)  # fmt: skip
     total = out.thermo["PotEng"] + out.thermo["KinEng"]
     x, y = grain(out, "x"), grain(out, "y")
     assert x.max() > 0.0025 and abs(y[x.argmax()] - 0.016) < 1e-6  # it came around
     assert np.ptp(total) < 1e-6 * np.ptp(out.thermo["KinEng"])
     assert np.all(grain(out, "omegaz") == 0)
+    first, second = (np.hypot(out.thermo[f"c_walls[{n}]"], out.thermo[f"c_walls[{n + 1}]"]) for n in (1, 3))
+    around, over = (x < -1e-6) & (y > 0.012 + 1e-6), x > 1e-6
+    assert np.count_nonzero(first[around]) > 10 and np.all(second[around] == 0)
+    assert np.all(first[over] == 0) and np.count_nonzero(second[over]) > 10
 
 
 def test_walls_have_no_energy_of_rotation(tmp_path: Path) -> None:

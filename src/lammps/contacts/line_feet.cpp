@@ -9,6 +9,11 @@
 
 using namespace LAMMPS_NS;
 
+namespace {
+// Whether a foot is at an end of its piece, where rounding may matter.
+bool is_end(double along, const cdem::WallLine &line) { return std::fabs(along) >= (1 - 1e-9) * line.half; }
+} // namespace
+
 void LineFeet::take_over(cdem::DiscPairs &pairs) {
   feet.clear();
   first_of_block.assign(1, 0);
@@ -113,12 +118,14 @@ double LineFeet::overlap_before(const cdem::DiscPairs &pairs, int k, double dt) 
   return cdem::contact_of(relative, cdem::distance_of(relative), pairs.constants(k), dt).before;
 }
 
-// At an end where other pieces begin, the distances decide, which two ranks that have the pair compute alike. Walls may
-// part, or meet, as they move.
+// At an end where other pieces begin, the closest acts, which two ranks that have the pair tell alike. Around an end
+// that is the closest point of several, their distances are equal but for round-off, and the lowest id decides: to
+// which part of a wall a round corner belongs must not be a matter of the last digits. Walls may part, or meet, as they
+// move.
 bool LineFeet::acts(const Foot &f, double along) const {
-  constexpr double CLEAR = 1 - 1e-9; // share of half the length within which rounding can't matter
   constexpr double TOLERANCE = 1e-6; // of half the length: places are rounded
-  if (std::fabs(along) < CLEAR * f.line.half)
+  constexpr double SAME = 1e-10;     // share of the squares of two distances
+  if (!is_end(along, f.line))
     return true;
   const cdem::Disc<double> &disc = rows[f.disc];
   const double here = cdem::square_distance(disc, rows[f.piece], f.line);
@@ -126,7 +133,12 @@ bool LineFeet::acts(const Foot &f, double along) const {
   return std::none_of(f.beside->begin(), f.beside->end(), [&](int other) {
     if (!ends_at(other, end, TOLERANCE * f.line.half))
       return false;
-    const double there = cdem::square_distance(disc, rows[other], rows.line(other));
-    return here != there ? there < here : atom->tag[rows.grain(other)] < atom->tag[rows.grain(f.piece)];
+    const cdem::WallLine line = rows.line(other);
+    if (!is_end(cdem::along_line(disc, rows[other], line), line))
+      return true;
+    const double there = cdem::square_distance(disc, rows[other], line);
+    if (std::fabs(here - there) > SAME * (here + there))
+      return there < here;
+    return atom->tag[rows.grain(other)] < atom->tag[rows.grain(f.piece)];
   });
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The feet of discs on the lines of walls (core/wall_line.h). A pair of a disc and a piece of a line has a row of its
 // own in place of the row of the piece. Before the forces of a step are computed it is placed where the disc's foot is,
-// and then the pair is one of two discs like any other. Where two pieces meet, the one that is closer to the disc acts;
-// the foot on the other is placed far away, on the same normal, and remembers ELSEWHERE in place of its spring, which
-// friction would need. So no event (step_events.h) is seen when a disc goes from one piece to the next: the foot that
-// is left forgets the contact, and the one that takes over takes from the velocities of the step whether the disc
-// touched the wall one step ago. The former piece is not asked: a rank that has the pair as a ghost's need not know it.
+// and then the pair is one of two discs like any other. Where two pieces meet, the one that is closer to the disc acts,
+// and around a corner, whose round end is that of both, the one with the lower id; the foot on the other is placed far
+// away, on the same normal, and remembers ELSEWHERE in place of its spring, which friction would need. So no event
+// (step_events.h) is seen when a disc goes from one piece to the next: the foot that is left forgets the contact, and
+// the one that takes over takes from the velocities of the step whether the disc touched the wall one step ago. The
+// former piece is not asked: a rank that has the pair as a ghost's need not know it.
 #pragma once
 
 #include "core/disc_pairs.h"
