@@ -144,9 +144,9 @@ void Accumulation::init_granular() {
   materials.assign(stride * stride, {});
   for (int i = 1; i < stride; i++)
     for (int j = 1; j < stride; j++) {
-      if (!(kn[i][j] > 0 && kt[i][j] >= 0))
-        stop(lmp, "Pair gran model ", who, ": kn ", kn[i][j], " must be positive and kt ", kt[i][j],
-             " 0 or more, for types ", i, " ", j);
+      if (!(kn[i][j] > 0 && kt[i][j] >= 0 && mu[i][j] >= 0))
+        stop(lmp, "Pair gran model ", who, ": kn ", kn[i][j], " must be positive, kt ", kt[i][j],
+             " and the coefficient of friction ", mu[i][j], " 0 or more, for types ", i, " ", j);
       materials[i * stride + j] = cdem::material(kn[i][j], kt[i][j], hn[i][j], hs[i][j], mu[i][j]);
     }
   motion = find_fix<FixIntegrate>(lmp);

@@ -185,6 +185,10 @@ def test_angles_are_not_lost_in_a_data_file(tmp_path: Path) -> None:
     (tmp_path / "written" / "discs.data").write_text((tmp_path / "discs.data").read_text())
     status, output = start(deck, tmp_path / "written")
     assert status != 0
+    assert (
+        "WARNING: A data file of grains of several discs, or of smooth walls, cannot be read: use write_restart"
+        in output
+    )
     assert "Angles of grains, which read_data cannot read: use a restart file" in output
 
 
@@ -195,6 +199,26 @@ def test_a_step_too_large_for_the_first_grain_is_refused(tmp_path: Path, content
     status, output = start(deck, tmp_path, style="verlet/cdem", depth="0 0")
     assert status != 0
     assert re.search("the time step 0.01 is beyond the stability limit 0.00[0-9]* of this scene", output)
+
+
+@pytest.mark.parametrize("contents", ["check", "auto"])
+def test_a_step_too_large_for_a_smaller_grain_that_comes_is_refused(tmp_path: Path, contents: str) -> None:
+    """The step is right for the sphere that is there; one of a quarter of its size may have an eighth of it, as sqrt(m)."""
+    large = DEPOSIT.replace(
+        "group       wall", "create_atoms 1 single 2 5 0\nset type 1 diameter 4 density 1\ngroup       wall"
+    )
+    deck = (
+        large.replace("dt any", f"dt {contents}")
+        .replace("timestep    1e-3", "timestep    3e-2")
+        .replace("run         4000", "run 100")
+    )
+    status, output = start(deck, tmp_path, style="verlet/cdem", depth="0 0")
+    found = re.search(r"the time step (\S+) is beyond the stability limit (\S+) of this scene", output)
+    assert status != 0 and found
+    assert float(found[1]) / float(found[2]) == pytest.approx(
+        0.9 * 8 if contents == "auto" else 0.03 / 5.57e-3, rel=1e-3
+    )
+    assert ("by the MAX of dt" in output) == (contents == "auto")
 
 
 def test_the_limit_of_contacts_of_grains_that_came(tmp_path: Path) -> None:

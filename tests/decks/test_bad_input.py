@@ -335,6 +335,10 @@ def test_missing_file(tmp_path: Path, command: str, message: str, ranks: int) ->
         ("dump d all custom 1 /dev/full id x y", "cannot write /dev/full: No space left on device"),
         ("fix out all ave/time 1 1 1 f_lid[2] file /dev/full", "cannot write /dev/full: No space left on device"),
         ("restart 10 nowhere/a nowhere/b", "nowhere/a"),
+        (
+            "unfix move\nfix move grains cdem/integrate dt check rescue nowhere/r.restart",
+            "rescue nowhere/r.restart: there is no folder nowhere that can be written",
+        ),
         ("dump d all custom 1 nowhere/d.dump id x y", "Cannot open dump file"),
         ("fix out all ave/time 1 1 1 f_lid file nowhere/f.dat", "nowhere/f.dat"),
         ("log nowhere/log.lammps", "nowhere/log.lammps"),

@@ -308,6 +308,14 @@ def test_local_dumps_with_names(tmp_path: Path, ranks: int) -> None:
         assert [line.rstrip() for line in rows[0]] == rows[1]
 
 
+def test_names_of_columns_are_those_of_the_compute_there_is(tmp_path: Path) -> None:
+    """Made anew between two runs, with other fields under the same ID."""
+    anew = "run 10\nuncompute discs\ncompute discs all cdem/discs radius y\nrun 10\n"
+    free(tmp_path, "compute discs all cdem/discs id x\n" + dump("cdem/local", "discs", 10, "c_discs[*]") + anew)
+    heads = [line for line in (tmp_path / "discs.dump").read_text().splitlines() if line.startswith("ITEM: ENTRIES")]
+    assert heads == ["ITEM: ENTRIES id x", "ITEM: ENTRIES id x", "ITEM: ENTRIES radius y"]
+
+
 def test_fields_of_discs_in_the_order_they_are_asked_for(tmp_path: Path) -> None:
     deck = "compute all all cdem/discs\ncompute some all cdem/discs radius type id\n"
     deck += dump("local", "all", 1000, "c_all[*]") + dump("local", "some", 1000, "c_some[*]") + "run 0\n"

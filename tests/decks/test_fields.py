@@ -194,6 +194,18 @@ def test_images_are_where_the_box_has_them(tmp_path: Path, tilt: float) -> None:
     assert solid == pytest.approx(there * math.pi * grain.radius**2 / 0.006**2, abs=1e-7)
 
 
+def test_images_move_as_the_box_is_deformed(tmp_path: Path) -> None:
+    """Grains on a lattice in affine motion, in a box that fix deform shears with `remap v`: the gradient is that of the box
+    though a row of them lies across a side."""
+    rate, side, n = 10.0, 0.04, 4
+    places = [(i + 0.5, j) for i in range(n) for j in range(n)]  # the lowest row lies on the side
+    discs = [Disc(x * side / n, y * side / n, 4e-3, rate * y * side / n) for x, y in places]
+    deck = START.replace("fix move", "change_box all triclinic\nfix move") + average()
+    deck += f"fix shear all deform 1 xy erate {rate} remap v\nrun 1\n"
+    seen = values(run(deck, tmp_path, discs=discs, box=(0, side, 0, side), bx="p", by="p"))
+    assert seen["gradient_xy"] == pytest.approx(rate, rel=1e-9)
+
+
 @pytest.mark.parametrize("case", CASES, ids=lambda case: "-".join(map(str, case.values())))
 def test_stress_is_that_of_compute_pressure(tmp_path: Path, case: dict[str, Any]) -> None:
     """In a periodic box without walls, contacts and motion. Compute pressure has the symmetric part of the latter about

@@ -129,6 +129,21 @@ def test_a_test_that_cannot_be_is_refused(folder: Path, asked: dict[str, float])
     assert 250 * WIDTH <= int(found[1]) / 1000 <= 250 * WIDTH + 4
 
 
+def test_frames_that_would_leave_out_the_end_are_refused(folder: Path) -> None:
+    status, output = start(SHEAR, folder, **(TEST | {"models": folder, "frames": 3}))
+    assert status != 0 and "ERROR: frames 3: must divide the number of rows, 20" in output
+
+
+def test_a_box_much_wider_than_high(tmp_path: Path) -> None:
+    """Sixty times as wide as a half is high: cells.dump has one layer."""
+    (tmp_path / "loose.in").write_text(LOOSE)
+    sizes = {"width": 0.36, "half_height": 0.006, "ngrains": 120}
+    options: dict[str, Any] = OPTIONS | {"models": tmp_path, "model": "loose"} | sizes
+    consolidate(tmp_path, **options, rest=0.05)
+    run(SHEAR, tmp_path, **options, rest=0.05, speed=200, travel=0.2, rows=2, frames=1)
+    assert len(Dump(tmp_path / CELLS_DUMP, ("x", "y", "solid")).frame(0)["x"]) == 10
+
+
 @pytest.mark.parametrize("sigma", [98, 200])
 def test_a_specimen_of_another_stress_is_refused(folder: Path, sigma: float) -> None:
     """The lid would sink, or rise, as shear begins."""

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import signal
 import subprocess
@@ -143,3 +144,13 @@ def test_asked_to_end_it_leaves_a_checkpoint(tmp_path: Path) -> None:
     run(text, tmp_path, **options | go_on(tmp_path))
     pack(tmp_path / "whole", name)
     assert read_row(tmp_path / PACKED_TABLE) == read_row(tmp_path / "whole" / PACKED_TABLE)
+
+
+def test_what_does_not_come_to_rest_says_how_far_it_is(tmp_path: Path) -> None:
+    """After the largest number of steps that a stage may take."""
+    text, options = deck(tmp_path, "TypeA_4x2_2-4_1-circle_auto")
+    status, output = start(text, tmp_path, **options, longest=1000, rest=1e-7)
+    assert status != 0
+    assert re.search(
+        r"ERROR: the grains are not at rest after 1000 steps: unbalanced force \S+, allowed \S+, kinetic", output
+    )

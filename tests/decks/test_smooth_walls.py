@@ -260,6 +260,38 @@ def slides() -> str:
     return WALL + grains + END
 
 
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_virial_of_a_disc_on_a_smooth_wall(tmp_path: Path, ranks: int) -> None:
+    """Compute stress/atom has r F, r from the wall to the disc: with a force along the normal no shear stress, wherever on
+    its piece the disc is."""
+    look = """
+compute s all stress/atom NULL virial
+compute sum all reduce sum c_s[1] c_s[2] c_s[4]
+thermo_style custom step c_sum[*]
+thermo_modify norm no format float %.17g
+run 0
+"""
+    at: dict[str, Any] = {"x": 0.0013, "y": 0.004 - 1e-6, "gvx": 0, "gvy": 0, "gx": 0, "gy": 0}
+    flat: dict[str, Any] = UPRIGHT | {"ux": 1, "uy": 0, "vx": 0, "vy": 1, "spin": 0}
+    thermo = run(WALL + GRAIN + look, tmp_path, law="direct", ranks=ranks, **at, **flat).thermo
+    assert thermo["c_sum[2]"][0] == pytest.approx(-1e8 * 1e-6 * (0.004 - 1e-6), rel=1e-6)
+    assert thermo["c_sum[1]"][0] == thermo["c_sum[3]"][0] == 0
+
+
+@pytest.mark.parametrize(("shift", "said"), [(-1e-6, "ERROR: {}: they overlap, and each would push a disc there"),
+                                             (1e-6, "WARNING: {}: in the gaps the wall is not smooth"), (0, "")])  # fmt: skip
+def test_pieces_of_a_row_must_meet(tmp_path: Path, shift: float, said: str) -> None:
+    """A row of six that is some micrometres shorter, or longer, than six pieces."""
+    deck = WALL.replace(
+        "row $(-0.01*v_ux) $(-0.01*v_uy) $(0.01*v_ux) $(0.01*v_uy)", f"row 0 -0.01 0 {0.01 + 5 * shift}"
+    )
+    status, output = start(deck, tmp_path, law="direct", **UPRIGHT)
+    apart = f"{4e-3 + shift:.9g}"
+    what = f"cdem/create: pieces of a smooth wall of diameter 0.008 are 0.004 long, and here {apart} apart"
+    assert (said.format(what) in output) and (status == 0) == (shift >= 0)
+    assert ("pieces of a smooth wall" in output) == bool(said)
+
+
 def test_the_template_is_part_of_the_scene(tmp_path: Path) -> None:
     """If the line turns between two runs, the next begins with the forces of the scene as it is."""
     turn = "\nunfix shape\nfix shape all cdem/shape type 1 single type 2 line 1 0 type 3 line 0 1\nrun 0"

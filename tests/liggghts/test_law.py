@@ -151,6 +151,15 @@ def test_a_new_contact_knows_nothing_of_the_last(tmp_path: Path, law: str, ranks
     assert anew.series("bounce.dump", "vx")[:rest, 0] == pytest.approx(vx[after:], rel=1e-4, abs=1e-6)
 
 
+def test_a_negative_coefficient_of_friction_is_refused(tmp_path: Path) -> None:
+    deck = IMPACTS.replace(
+        "fix move", "fix mu all property/global coefficientFriction peratomtypepair 2 -0.5 -0.5 -0.5 -0.5\nfix move", 1
+    )
+    run(IMPACTS, tmp_path, [Disc(0, 0)], dt=1e-6, steps=1)
+    status, output = start(deck, tmp_path, dt=1e-6, steps=1)
+    assert status != 0 and "the coefficient of friction -0.5 0 or more, for types 1 1" in output
+
+
 def test_without_the_library_liggghts_says_so(tmp_path: Path) -> None:
     deck = "units si\ndimension 2\natom_style sphere\npair_style gran model direct_accumulation\n"
     status, output = start(deck, tmp_path, preload=False)

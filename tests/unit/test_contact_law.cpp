@@ -4,7 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
+
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
 
 using namespace cdem;
 
@@ -73,6 +78,26 @@ TEST(ContactLaw, DashpotsAreTwiceTheDampingRatioTimesRootOfMassAndStiffness) {
   const auto tangential = Scene(1e-6).moving(0, u).force(0);
   EXPECT_NEAR(tangential.fy, -dashpot(HS, KS) * u, 1e-9 * KN * 1e-6);
 }
+
+#ifdef __SSE2__
+TEST(ContactLaw, AContactWithoutATangentialSpringIsKnownThoughDenormalNumbersAreTakenForZero) {
+  const auto seconds_of_three = [](unsigned flags) {
+    const unsigned usual = _mm_getcsr();
+    _mm_setcsr(usual | flags);
+    Scene s(1e-6);
+    s.moving(-1e-3, 0);
+    s.force(0); // as a run begins
+    const double second = s.force().fx, third = s.force().fx;
+    _mm_setcsr(usual);
+    return std::pair(second, third);
+  };
+  constexpr unsigned FLUSH_TO_ZERO = 0x8000, DENORMALS_ARE_ZERO = 0x0040;
+  const auto [second, third] = seconds_of_three(FLUSH_TO_ZERO | DENORMALS_ARE_ZERO);
+  const double force = KN * 1e-6 + dashpot(HN, KN) * 1e-3; // a contact that closed in the step would have another
+  EXPECT_NEAR(second, force, 1e-9 * force);
+  EXPECT_NEAR(third, force, 1e-9 * force);
+}
+#endif
 
 TEST(ContactLaw, IncrementsFollowTheOverlap) {
   Scene s(1e-6);

@@ -249,16 +249,23 @@ int PairCDEM::pack_forward_comm(int n, int *list, double *buf, int pbc_flag, int
 
 void PairCDEM::unpack_forward_comm(int n, int first, double *buf) { contacts.rows.unpack(n, first, buf); }
 
-// Adds energy and virial of a contact to LAMMPS's sums. The branch vector is from grain centre to grain centre.
+// Adds energy and virial of a contact to LAMMPS's sums. The branch vector is from grain centre to grain centre, or to
+// the foot on a smooth wall: a piece of it has no centre that would matter.
 void PairCDEM::tally(int k, const cdem::PairForce &f) {
   const int i = contacts.rows.grain(contacts.pairs.a(k)), j = contacts.rows.grain(contacts.pairs.b(k));
-  const double *const xi = atom->x[i], *const xj = atom->x[j];
+  const auto place = [this](int row, int grain) {
+    const GrainRows &rows = contacts.rows;
+    if (rows.shape_of_type(atom->type[grain]).is_line())
+      return GrainRows::Vector{rows[row].x, rows[row].y};
+    return GrainRows::Vector{atom->x[grain][0], atom->x[grain][1]};
+  };
+  const auto from = place(contacts.pairs.a(k), i), to = place(contacts.pairs.b(k), j);
   double energy = 0;
   if (eflag_either) {
     const auto [normal, tangential, added] = contacts.energy(k, contacts.material(k));
     energy = normal + tangential + added;
   }
-  ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, energy, 0, f.fx, f.fy, 0, xi[0] - xj[0], xi[1] - xj[1], 0);
+  ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, energy, 0, f.fx, f.fy, 0, from.x - to.x, from.y - to.y, 0);
 }
 
 double PairCDEM::single(int i, int j, int, int, double, double, double, double &fforce) {

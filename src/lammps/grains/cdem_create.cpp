@@ -13,6 +13,7 @@
 #include "utils.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -53,7 +54,27 @@ std::vector<CDEMCreate::Disc> CDEMCreate::row(Words &words) {
   words.keyword("diameter");
   const double diameter = words.positive("diameter");
   read_density(words);
-  return cdem::discs_in_a_row({x1, y1}, {x2, y2}, n, diameter);
+  const std::vector<Disc> discs = cdem::discs_in_a_row({x1, y1}, {x2, y2}, n, diameter);
+  if (const cdem::GrainShape &shape = FixCDEMShape::shape(lmp, type); n > 1 && shape.is_line())
+    check_joints(discs, shape.axis(0.5 * diameter));
+  return discs;
+}
+
+// Pieces of a smooth wall, one behind the other, act as one wall only where their ends meet: where they overlap, both
+// push a disc, and a disc over a small gap leans on both ends.
+void CDEMCreate::check_joints(const std::vector<Disc> &row, const cdem::WallLine &axis) const {
+  constexpr double TOLERANCE = 5e-7; // of a piece's length: as in contacts/line_feet.cpp, there of half of it
+  const double dx = row[1].x - row[0].x, dy = row[1].y - row[0].y, length = 2 * axis.half;
+  const double apart = std::fabs(dx * axis.ux + dy * axis.uy);
+  if (std::fabs(dx * axis.uy - dy * axis.ux) > TOLERANCE * length)
+    return; // side by side
+  const std::string what =
+      fmt::format("cdem/create: pieces of a smooth wall of diameter {:.9g} are {:.9g} long, and here {:.9g} apart",
+                  row[0].diameter, length, apart);
+  if (apart < (1 - TOLERANCE) * length)
+    error->all(FLERR, "{}: they overlap, and each would push a disc there", what);
+  if (apart > (1 + TOLERANCE) * length && apart < 2 * length && comm->me == 0)
+    error->warning(FLERR, what + ": in the gaps the wall is not smooth");
 }
 
 std::vector<CDEMCreate::Disc> CDEMCreate::fill(Words &words) {

@@ -5,7 +5,9 @@
 // Makes discs of mass RHO pi D^2/4, or grains of the shape that fix cdem/shape gives to TYPE, with circumscribed
 // diameter D and the mass of that shape. RHO is an areal density, density x thickness (kg/m^2), lengths are in m.
 //
-//   row   N discs, their centres evenly spaced from (X1, Y1) to (X2, Y2), both included
+//   row   N discs, their centres evenly spaced from (X1, Y1) to (X2, Y2), both included. Pieces of a smooth wall
+//         (template line of fix cdem/shape) along their axis must be D/2 apart, as long as they are: not less, and a
+//         warning tells of gaps
 //   fill  N grains without overlap inside a rectangle, as a loose column for packing. Diameters follow the number
 //         density n(d) ~ d^P from DMIN to DMAX: the law is divided into N equal shares, and each gives one grain. The
 //         seed S >= 1 decides their order. They stand in rows with random gaps, spread over the whole height (see
@@ -19,6 +21,7 @@
 #pragma once
 
 #include "core/fill.h"
+#include "core/wall_line.h"
 #include "host/deck_words.h"
 
 #include "command.h"
@@ -40,6 +43,7 @@ private:
   std::vector<Disc> fill(Words &);
   void read_density(Words &);
   void check(const Disc &) const;
+  void check_joints(const std::vector<Disc> &row, const cdem::WallLine &axis) const;
   bool is_mine(const Disc &) const;
   void create(const std::vector<Disc> &);
 

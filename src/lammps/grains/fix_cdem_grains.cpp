@@ -9,6 +9,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
+#include "error.h"
 #include "fmt/format.h"
 #include "memory.h"
 #include "modify.h"
@@ -183,7 +184,12 @@ void FixCDEMGrains::set_arrays(int i) {
   state[i][ANGLE] = state[i][X] = state[i][Y] = UNKNOWN;
 }
 
+// LAMMPS's data files have no angles of grains, and a file without them would be read with all angles 0: this one is
+// refused by read_data.
 void FixCDEMGrains::write_data_section_size(int, int &rows, int &columns) {
+  if (comm->me == 0)
+    error->warning(FLERR,
+                   "A data file of grains of several discs, or of smooth walls, cannot be read: use write_restart");
   rows = atom->nlocal;
   columns = 2;
 }

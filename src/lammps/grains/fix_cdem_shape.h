@@ -24,7 +24,9 @@
 // meet, such as atoms R apart in a row along (UX, UY), are one wall; it may turn a corner where pieces of two types
 // meet, and the forces on a rounded outer corner are those of the piece with the lower id. A disc touches a wall at the
 // point that is closest, as it would touch a wall disc of radius R/2 there, but without friction: phi and rolling must
-// be 0 for contacts of these types. Such an atom is always a wall, never a grain of fix cdem/integrate.
+// be 0 for contacts of these types. Such an atom is always a wall, never a grain of fix cdem/integrate. Where ends that
+// met part, as walls move, both bear a disc that is over the gap, from one step to the next, and one where they meet
+// again: the forces jump.
 //
 // displace_atoms rotate turns the places of grains about a point, and leaves the angle of each as it is.
 //

@@ -6,10 +6,12 @@
 
 #include "atom.h"
 #include "domain.h"
+#include "error.h"
 #include "update.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 using namespace LAMMPS_NS;
@@ -57,6 +59,12 @@ void GrainRows::map_clumps() {
 void GrainRows::make_feet(std::vector<int> pieces) {
   piece_of_foot = std::move(pieces);
   first_foot = rows_of(all);
+  constexpr std::size_t MOST = std::numeric_limits<int>::max() / 8; // eight numbers each, counted by int
+  if (first_foot + piece_of_foot.size() > MOST)
+    error->one(
+        FLERR,
+        "Pair cdem: {} discs and contacts with smooth walls on a rank, ghosts included: at most {}, take more ranks",
+        first_foot + piece_of_foot.size(), MOST);
   (clumps ? disc_rows : grains).resize(first_foot + piece_of_foot.size());
 }
 

@@ -155,7 +155,11 @@ void FixCDEMIntegrate::init() {
 // Asked by the run style, whose init() is before ours: `audit` is still that of the last run.
 bool FixCDEMIntegrate::needs_every_step() const { return damping != 0 && FixCDEMAudit::find(lmp); }
 
+// Between two runs, where newer LAMMPS calls it for the command timestep, the scene is not known yet; init() takes it
+// up.
 void FixCDEMIntegrate::reset_dt() {
+  if (update->whichflag == 0)
+    return;
   known_dt = update->dt;
   step.check();
   grains->weight = step.prediction_weight();
@@ -260,7 +264,7 @@ void FixCDEMIntegrate::take_accelerations() {
 // Grains may have come.
 void FixCDEMIntegrate::post_neighbor() {
   settle_angles();
-  if (!step.sees_first_grains())
+  if (!step.sees_smaller_grains())
     return;
   grains->weight = step.prediction_weight();
   guard.set_limits(smallest_disc(), step.scene_limit());

@@ -30,7 +30,8 @@
 // Global vector: 1 applied stress (Pa), 2 felt stress = N/(W T) (Pa), 3 place of the inner face (m), for a lid on top
 // the y of its lowest point, which goes on without a jump where the box is periodic along the normal, 4 velocity
 // outward (m/s), 5 number of steps in which V limited the velocity, 6 force of the grains along the lid, f_x or f_y
-// (N). Runs continued from restart files give the same bits.
+// (N). Runs continued from restart files give the same bits; with a variable, if it is one of places and steps, like
+// this one: what it reads of forces and velocities is not known yet as a run begins.
 #pragma once
 
 #include "motion/wall_body.h"

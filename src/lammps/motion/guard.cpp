@@ -12,6 +12,8 @@
 #include "update.h"
 
 #include <cmath>
+#include <filesystem>
+#include <unistd.h>
 
 using namespace LAMMPS_NS;
 
@@ -25,6 +27,12 @@ struct Located {
   double value;
   int rank;
 };
+
+// As LAMMPS names a restart file of a step.
+std::string with_step(const std::string &file, bigint step) {
+  const auto star = file.find('*');
+  return star == std::string::npos ? file : file.substr(0, star) + std::to_string(step) + file.substr(star + 1);
+}
 } // namespace
 
 void Guard::set_limits(double smallest_radius, double step_limit) {
@@ -36,8 +44,23 @@ void Guard::begin(double smallest_radius, double step_limit) {
   set_limits(smallest_radius, step_limit);
   if (automatic && atom->natoms > MOST_ATOMS * comm->nprocs)
     file.clear();
+  if (!file.empty())
+    check_folder();
   rescue.clear();
   keep();
+}
+
+// A file that could not be written would hide why the run has failed.
+void Guard::check_folder() {
+  int writable = 0;
+  const std::string folder = std::filesystem::path(file).parent_path().string();
+  if (comm->me == 0)
+    writable = access(folder.empty() ? "." : folder.c_str(), W_OK) == 0;
+  MPI_Bcast(&writable, 1, MPI_INT, 0, world);
+  if (!writable && !automatic)
+    error->all(FLERR, "Fix cdem/integrate: rescue {}: there is no folder {} that can be written", file, folder);
+  if (!writable)
+    file.clear();
 }
 
 bool Guard::is_due() const { return update->ntimestep % EVERY == 0; }
@@ -112,7 +135,7 @@ void Guard::fail(int owner, std::string what) {
   MPI_Bcast(what.data(), size, MPI_CHAR, owner, world);
   std::string message = fmt::format("Fix cdem/integrate: at step {} {}. {}", update->ntimestep, what, cause());
   if (const bigint step = file.empty() ? -1 : rescue.write(file); step >= 0)
-    message += fmt::format(" The state of step {} is in {}.", step, file);
+    message += fmt::format(" The state of step {} is in {}.", step, with_step(file, step));
   error->all(FLERR, message);
 }
 

@@ -47,6 +47,7 @@ public:
   double bytes() const { return rescue.bytes(); }
 
 private:
+  void check_folder();
   double moved(int i) const;
   bool outside(int i) const;
   [[noreturn]] void fail(int owner, std::string what);

@@ -46,16 +46,20 @@ void StepChoice::parse(Shearbox::DeckWords &words) {
 
 void StepChoice::init() {
   limit = scene_minimum(cdem::step_limit);
+  known = atom->natoms;
   apply();
 }
 
-bool StepChoice::sees_first_grains() {
-  if (std::isfinite(limit))
+bool StepChoice::sees_smaller_grains() {
+  const bool came = atom->natoms > known;
+  known = atom->natoms;
+  const double now = came ? scene_minimum(cdem::step_limit) : limit;
+  if (!(now < limit))
     return false;
-  limit = scene_minimum(cdem::step_limit);
+  limit = now;
   if (rule != Rule::any)
     refuse_beyond_limit();
-  return std::isfinite(limit);
+  return true;
 }
 
 double StepChoice::prediction_weight() const {
@@ -102,8 +106,8 @@ void StepChoice::refuse_beyond_limit() const {
   if (update->dt > limit)
     error->all(FLERR,
                "Fix cdem/integrate: the time step {:.4g} is beyond the stability limit {:.4g} of this scene (smallest "
-               "grain, stiffest contact); take a smaller one, 'dt auto', or 'dt any' to run nevertheless",
-               update->dt, limit);
+               "grain, stiffest contact); take a smaller one, {}, or 'dt any' to run nevertheless",
+               update->dt, limit, chooses() ? "by the MAX of dt: grains came that are smaller" : "'dt auto'");
 }
 
 double StepChoice::at_most_max(double step) const {

@@ -26,8 +26,8 @@ public:
   void check() const;
   // When a run is prepared: computes the limit of the present scene, and chooses or checks the step by it.
   void init();
-  // When grains have come into a run that began without any, for which there was no limit: whether that is so.
-  bool sees_first_grains();
+  // When grains have come into a run: whether they lower the limit, which is none without grains.
+  bool sees_smaller_grains();
   // Whether that of `dt contacts` has yet to be chosen: not if that was done in an earlier run.
   bool is_to_be_chosen() const { return rule == Rule::contacts && kept_step == 0; }
   // When contacts are known: chooses it.
@@ -56,6 +56,7 @@ private:
   Rule rule = Rule::check;
   double max_step;
   double limit = 0;    // of the worst packing (s)
+  bigint known = 0;    // number of grains and walls for which that is
   double chosen = 0;   // by this (s)
   bool warned = false; // in this run
 };

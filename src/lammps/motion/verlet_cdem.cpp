@@ -45,6 +45,14 @@ void VerletCDEM::init() {
     error->warning(FLERR, "Run style verlet/cdem is no faster than verlet here: " + why);
 }
 
+namespace {
+std::string keyword_for(const std::string &style) {
+  if (style != "gravity" && style != "viscous")
+    return "";
+  return fmt::format("; fix cdem/integrate has a keyword for it, {}", style == "gravity" ? "gravity" : "drag");
+}
+} // namespace
+
 std::string VerletCDEM::hindrance() const {
   if (!integrate)
     return "there is no fix cdem/integrate";
@@ -56,7 +64,7 @@ std::string VerletCDEM::hindrance() const {
     const std::string name = std::string("fix ") + fix.id + " of style " + fix.style;
     // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): none is null, as it takes from the casts in init()
     if (acts_in_every_step(fix, modify->fmask[i]))
-      return name + " acts in every step (for gravity and drag, fix cdem/integrate has keywords)";
+      return name + " acts in every step" + keyword_for(fix.style);
     if (fix.box_change & DEFORMS)
       return name + " changes the box, which moves images of grains";
   }

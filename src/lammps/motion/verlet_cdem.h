@@ -14,9 +14,10 @@
 // as dangerous.
 // A fix that acts within every step, such as gravity or viscous, leaves no steps to be made this way. Then this style
 // is as run_style verlet, and a warning names the fix. Fixes that may be left out of such steps (host/glides.h) do not
-// matter: these are the fixes of this package, except fix cdem/lid with a variable for its stress. Needs pair_style
-// cdem. With KOKKOS turned on (-k on -sf kk) LAMMPS allows no run style but its own, verlet/kk, which gives the same
-// bits.
+// matter: these are the fixes of this package, except fix cdem/lid with a variable for its stress, and fix
+// cdem/integrate with `damping` while there is an audit. A fix that changes the size or the shape of the box, such as
+// deform, ends it as well. Needs pair_style cdem. With KOKKOS turned on (-k on -sf kk) LAMMPS allows no run style but
+// its own, verlet/kk, which gives the same bits.
 #pragma once
 
 #include "core/disc_motion.h"

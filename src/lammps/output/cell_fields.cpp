@@ -119,17 +119,20 @@ cdem::FieldSums::Largest CellFields::largest(const std::vector<Contact> &contact
   return {all[0], all[1], all[2], all[3], all[4]};
 }
 
-// Calls visit(displacement) for the periodic images of what is inside `part` that may reach into the rectangle `in`,
-// which may be anywhere. The box may be tilted.
+// Calls visit(displacement, velocity) for the periodic images of what is inside `part` that may reach into the
+// rectangle `in`, which may be anywhere. The box may be tilted. The velocity is that of the image over that of the
+// grain, if fix deform gives its images one (remap v).
 template <class Visit>
 void CellFields::for_each_image(const cdem::Rectangle &in, const cdem::Rectangle &part, Visit visit) const {
   const double px = domain->xperiodic ? domain->xprd : 0, py = domain->yperiodic ? domain->yprd : 0;
   const auto first = [](double least, double period) { return period > 0 ? bigint(std::ceil(least / period)) : 0; };
   const auto last = [](double most, double period) { return period > 0 ? bigint(std::floor(most / period)) : 0; };
+  const double *const rate = domain->h_rate;
   for (bigint j = first(in.ylo - part.yhi, py); j <= last(in.yhi - part.ylo, py); j++) {
     const double tilt = double(j) * domain->xy;
     for (bigint i = first(in.xlo - part.xhi - tilt, px); i <= last(in.xhi - part.xlo - tilt, px); i++)
-      visit(cdem::Point{double(i) * px + tilt, double(j) * py});
+      visit(cdem::Point{double(i) * px + tilt, double(j) * py},
+            cdem::Point{double(i) * rate[0] + double(j) * rate[5], double(j) * rate[1]});
   }
 }
 
@@ -151,13 +154,16 @@ void CellFields::add_grains(cdem::FieldSums &sums, const cdem::Rectangle &in, co
     const cdem::GrainShape &shape = *shapes[atom->type[i]];
     const double r = atom->radius[i];
     const cdem::Point centre{atom->x[i][0], atom->x[i][1]};
-    for_each_image(in, {centre.x - r, centre.x + r, centre.y - r, centre.y + r}, [&](cdem::Point by) {
-      const cdem::Point at = moved(centre, by);
-      place(shape, at, r, grains->angle(i), outline);
-      sums.add(
-          {at, {atom->v[i][0], atom->v[i][1]}, r, shape.area() * r * r, atom->rmass[i], atom->omega[i][2], contacts[i]},
-          outline);
-    });
+    const cdem::Point velocity{atom->v[i][0], atom->v[i][1]};
+    const bool drifts = domain->deform_vremap && (atom->mask[i] & domain->deform_groupbit);
+    for_each_image(in, {centre.x - r, centre.x + r, centre.y - r, centre.y + r},
+                   [&](cdem::Point by, cdem::Point drift) {
+                     const cdem::Point at = moved(centre, by);
+                     place(shape, at, r, grains->angle(i), outline);
+                     sums.add({at, drifts ? moved(velocity, drift) : velocity, r, shape.area() * r * r, atom->rmass[i],
+                               atom->omega[i][2], contacts[i]},
+                              outline);
+                   });
   }
 }
 
@@ -171,7 +177,7 @@ void CellFields::add_branches(cdem::FieldSums &sums, const cdem::Rectangle &in,
     const cdem::Point from{atom->x[i][0], atom->x[i][1]}, to{c.x, c.y};
     const auto [xlo, xhi] = std::minmax(from.x, to.x);
     const auto [ylo, yhi] = std::minmax(from.y, to.y);
-    for_each_image(in, {xlo, xhi, ylo, yhi}, [&](cdem::Point by) {
+    for_each_image(in, {xlo, xhi, ylo, yhi}, [&](cdem::Point by, cdem::Point) {
       sums.add({moved(from, by), moved(to, by), force, {c.nx, c.ny}, c.fn, c.ft});
     });
   };

@@ -20,8 +20,9 @@
 //   10 residual    the increase of the energy of the grains and springs since then, plus 5 to 7, less 8 and 9
 //
 // Work and losses are sums over steps of the mean force at the two ends of the step times its displacement, as the time
-// integration does work. So the residual is the error of the time step, of second order, and anything that the audit
-// does not count: forces of other fixes, grains that are added, removed or given a velocity.
+// integration does work. So the residual is the error of the time step, of second order (of first order with law
+// incremental, whose normal spring need not be empty as a contact opens), and anything that the audit does not count:
+// forces of other fixes, grains that are added, removed or given a velocity.
 //
 // An audit costs some time in every step and 32 bytes per pair (40 with rolling resistance). Its sums are in restart
 // files: after read_restart, make the compute before the first run. The last digits of sums depend on the number of

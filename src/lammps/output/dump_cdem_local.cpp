@@ -42,10 +42,13 @@ std::string with_names(const std::string &columns, const Modify &modify) {
 
 } // namespace
 
-// LAMMPS puts a blank behind the format of every column.
+// A compute may have been made anew, with other fields, since the last run. LAMMPS puts a blank behind the format of
+// every column.
 void DumpCDEMLocal::init_style() {
   DumpLocal::init_style();
-  const std::string names = with_names(columns, *modify);
+  if (columns != names)
+    words = columns;
+  names = with_names(words, *modify);
   delete[] columns;
   columns = utils::strdup(names);
   std::string last = vformat[size_one - 1];

@@ -15,6 +15,8 @@
 
 #include "dump_local.h"
 
+#include <string>
+
 namespace LAMMPS_NS {
 
 class DumpCDEMLocal : public DumpLocal {
@@ -23,6 +25,9 @@ public:
 
 protected:
   void init_style() override;
+
+private:
+  std::string words, names; // of the columns: as LAMMPS has them, and what this has put in their place
 };
 
 } // namespace LAMMPS_NS
