@@ -153,11 +153,15 @@ public:
 
   int entries() const { return int(groups.size() - 1) * SIZE; } // including those not used
 
-  // Calls visit(k, material) for every pair.
+  // Calls visit(k) for every pair, or for those of a block.
   template <class Visit> void for_each(Visit visit) const {
-    for (const Segment &segment : segments)
-      for (int k = segment.begin; k < segment.end; k++)
-        visit(k, segment.material);
+    for (std::size_t block = 0; block + 1 < first_segment.size(); block++)
+      for_each_of_block(int(block), visit);
+  }
+  template <class Visit> void for_each_of_block(int block, Visit &&visit) const {
+    for (int s = first_segment[block]; s < first_segment[block + 1]; s++)
+      for (int k = segments[s].begin; k < segments[s].end; k++)
+        visit(k);
   }
 
   PairColumns columns(Forces<double> *slots) {

@@ -78,7 +78,7 @@ public:
   // Of rows 0 ... n-1, in the order of the pairs.
   PairsOfDiscs(const DiscPairs &pairs, int n) : first(n + 1, 0) {
     auto for_each_side = [&](auto visit) {
-      pairs.for_each([&](int k, const Material &) {
+      pairs.for_each([&](int k) {
         for (int row : {pairs.a(k), pairs.b(k)})
           if (row < n)
             visit(row, k);
@@ -225,10 +225,10 @@ private:
       for (int row = starts[k]; row < starts[k + 1]; row++)
         end[k + 1] += counts[row];
       read_ends[k] = std::max(starts[k + 1], k ? read_ends[k - 1] : 0);
-      for (int s = pairs.first_segment[k]; s < pairs.first_segment[k + 1]; s++)
-        for (int p = pairs.segments[s].begin; p < pairs.segments[s].end; p++)
-          if (const int row = std::max(pairs.a(p), pairs.b(p)); row < starts.back())
-            read_ends[k] = std::max(read_ends[k], row + 1);
+      pairs.for_each_of_block(k, [&](int p) {
+        if (const int row = std::max(pairs.a(p), pairs.b(p)); row < starts.back())
+          read_ends[k] = std::max(read_ends[k], row + 1);
+      });
     }
     int in_use = 0, largest = 0;
     for (int k = 0; k < blocks; k++) {

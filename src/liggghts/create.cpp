@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "liggghts/create.h"
 
-#include "core/fill.h"
+#include "core/create_words.h"
 
 #include "atom.h"
 #include "atom_vec.h"
@@ -18,36 +18,9 @@ namespace {
 
 using Discs = std::vector<cdem::PlacedDisc>;
 
-double density_of(Words &words) {
-  words.keyword("density");
-  return words.positive("density");
-}
-
-Discs row(Words &words, double &density) {
-  const double x1 = words.number("X1"), y1 = words.number("Y1");
-  const double x2 = words.number("X2"), y2 = words.number("Y2");
-  const int n = words.count("number of discs");
-  words.keyword("diameter");
-  const double diameter = words.positive("diameter");
-  density = density_of(words);
-  return cdem::discs_in_a_row({x1, y1}, {x2, y2}, n, diameter);
-}
-
-Discs fill(LAMMPS *lmp, Words &words, double &density) {
-  cdem::Filling grains{};
-  grains.n = words.count("number of grains");
-  words.keyword("region");
-  grains.xlo = words.number("XLO"), grains.xhi = words.number("XHI");
-  grains.ylo = words.number("YLO"), grains.yhi = words.number("YHI");
-  words.keyword("diameter");
-  grains.smallest = words.positive("DMIN"), grains.largest = words.positive("DMAX");
-  words.keyword("power");
-  grains.power = words.number("power");
-  density = density_of(words);
-  words.keyword("seed");
-  const int seed = words.count("seed");
+cdem::Creation fill(LAMMPS *lmp, Words &words) {
   try {
-    return grains.discs(seed);
+    return cdem::read_fill(words);
   } catch (const std::invalid_argument &bad) {
     stop(lmp, "cdem/create: ", bad.what());
   }
@@ -107,8 +80,7 @@ void create(LAMMPS *lmp, int narg, char **arg) {
   const std::string how = words.word("row or fill");
   if (how != "row" && how != "fill")
     stop(lmp, "cdem/create: ", how, ": must be row or fill");
-  double density;
-  const Discs discs = how == "row" ? row(words, density) : fill(lmp, words, density);
+  const auto [discs, density] = how == "row" ? cdem::read_row(words) : fill(lmp, words);
   if (!words.done())
     stop(lmp, "cdem/create: unknown word ", words.word("word"));
   make(lmp, type, discs, density);

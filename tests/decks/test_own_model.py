@@ -130,7 +130,8 @@ def test_a_test_that_cannot_be_is_refused(folder: Path, asked: dict[str, float])
 
 
 def test_frames_that_would_leave_out_the_end_are_refused(folder: Path) -> None:
-    status, output = start(SHEAR, folder, **(TEST | {"models": folder, "frames": 3}))
+    options: dict[str, Any] = TEST | {"models": folder, "frames": 3}
+    status, output = start(SHEAR, folder, **options)
     assert status != 0 and "ERROR: frames 3: must divide the number of rows, 20" in output
 
 

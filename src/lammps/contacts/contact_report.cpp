@@ -9,7 +9,7 @@ using namespace LAMMPS_NS;
 
 std::vector<ContactReport::Contact> ContactReport::contacts() const {
   std::vector<Contact> all;
-  list.pairs.for_each([&](int k, const cdem::Material &) {
+  list.pairs.for_each([&](int k) {
     if (list.acts(k, list.force(k)))
       all.push_back(contact(k));
   });
@@ -63,10 +63,10 @@ std::vector<ContactReport::DiscPlace> ContactReport::discs() const {
 
 cdem::LawTable::Energy ContactReport::energy() const {
   cdem::LawTable::Energy sum{0, 0, 0};
-  list.pairs.for_each([&](int k, const cdem::Material &m) {
+  list.pairs.for_each([&](int k) {
     if (!list.counts(k))
       return;
-    const auto [normal, tangential, added] = list.energy(k, m);
+    const auto [normal, tangential, added] = list.energy(k);
     sum.normal += normal;
     sum.tangential += tangential;
     sum.added += added;
@@ -82,7 +82,7 @@ ContactReport::OfPair ContactReport::of_pair(int i, int j) const {
     if (atom->tag[other] != atom->tag[j] || !list.acts(k, list.force(k)))
       return;
     const Contact c = contact(k);
-    const auto [normal, tangential, added] = list.energy(k, list.material(k));
+    const auto [normal, tangential, added] = list.energy(k);
     sum.energy += normal + tangential + added;
     sum.pull += c.fn / std::hypot(rows[p].x - rows[q].x, rows[p].y - rows[q].y);
     sum.fn += c.fn;
@@ -94,7 +94,7 @@ ContactReport::OfPair ContactReport::of_pair(int i, int j) const {
     for (int p = rows.rows_of(i); p < rows.rows_of(i + 1); p++)
       list.by_disc().for_each(p, add);
   else
-    list.pairs.for_each([&](int k, const cdem::Material &) {
+    list.pairs.for_each([&](int k) {
       if (rows.grain(list.pairs.a(k)) == i || rows.grain(list.pairs.b(k)) == i)
         add(k);
     });

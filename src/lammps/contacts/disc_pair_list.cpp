@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contacts/disc_pair_list.h"
 
-#include "core/list_skin.h"
 #include "core/step_events.h"
 #include "grains/fix_cdem_audit.h"
 #include "grains/fix_cdem_grains.h"
@@ -11,7 +10,6 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "neigh_list.h"
 #include "neighbor.h"
 #include "timer.h"
 #include "update.h"
@@ -35,6 +33,7 @@ void DiscPairList::init(const cdem::LawTable &of_run, const ByTypes &by_types, c
   remember_numbers();
   grains = FixCDEMGrains::find(lmp);
   rows.init(grains, cdem::kernels(law.rules, instructions));
+  search.init(grains);
   speed = -1;
   is_of_run = false;
 }
@@ -89,7 +88,7 @@ void DiscPairList::pair_forces(int block) {
 void DiscPairList::forces(const LookAtForce &visit) {
   std::vector<Dashpots> at_end_of_step;
   if (update->setupflag && pairs.has_books())
-    pairs.for_each([&](int k, const cdem::Material &) { at_end_of_step.push_back(pairs.last_dashpots_of(k)); });
+    pairs.for_each([&](int k) { at_end_of_step.push_back(pairs.last_dashpots_of(k)); });
   for (int block = 0; block < slots.blocks(); block++) {
     const int begin = block_starts[block], end = block_starts[block + 1];
     pair_forces(block);
@@ -109,7 +108,7 @@ void DiscPairList::forces(const LookAtForce &visit) {
 // Of those contacts that had any: others are new, or their run was not audited.
 void DiscPairList::take_back(const std::vector<Dashpots> &known) {
   auto next = known.begin();
-  pairs.for_each([&](int k, const cdem::Material &) {
+  pairs.for_each([&](int k) {
     if (std::any_of(next->begin(), next->end(), [](double x) { return x != 0; }))
       pairs.set_last_dashpots(k, next->data());
     ++next;
@@ -121,14 +120,13 @@ void DiscPairList::look_at_forces(int block, const LookAtForce &visit) {
   const bool kept = !pairs.force.empty();
   if (!kept && !visit)
     return;
-  for (int s = pairs.first_segment[block]; s < pairs.first_segment[block + 1]; s++)
-    for (int k = pairs.segments[s].begin; k < pairs.segments[s].end; k++) {
-      const cdem::PairForce f = slots.of_pair(pairs, k);
-      if (kept)
-        pairs.force[k] = f;
-      if (visit && acts(k, f))
-        visit(k, f);
-    }
+  pairs.for_each_of_block(block, [&](int k) {
+    const cdem::PairForce f = slots.of_pair(pairs, k);
+    if (kept)
+      pairs.force[k] = f;
+    if (visit && acts(k, f))
+      visit(k, f);
+  });
 }
 
 // A pair belongs to the block of its lower row, so later blocks have no pairs with the grains of this one. Once the
@@ -201,13 +199,12 @@ void DiscPairList::build() {
   is_of_run = true;
   law.rules.books = booking;
   kernels = cdem::kernels(law.rules, instructions);
-  choose_skin();
   pairs_of_discs.reset();
   listed.assign(atom->tag, atom->tag + atom->nlocal + atom->nghost);
   divide_into_blocks();
   find_pairs();
   set_constants();
-  pairs.for_each([this](int k, const cdem::Material &) { recall_history(k); });
+  pairs.for_each([this](int k) { recall_history(k); });
   std::vector<int> row_starts;
   for (int grain : block_starts)
     row_starts.push_back(rows.rows_of(grain));
@@ -243,26 +240,6 @@ int DiscPairList::most_pairs() const {
   return most;
 }
 
-// The skin of the list of disc pairs that costs least, see core/list_skin.h. A pair that opens in a step must stay in
-// the list for the next one, in which part of its forces may still act. The bits of the forces do not depend on the
-// skin.
-void DiscPairList::choose_skin() {
-  constexpr double LEAST = 0.01, SAFETY = 8;
-  constexpr int LOOKED_AT = 256; // grains, enough for an estimate
-  const double largest = neighbor->skin;
-  const double step = update->dt * rows.fastest(atom->nlocal + atom->nghost).speed(largest_reach());
-  const int every = std::max(1, neighbours->inum / LOOKED_AT);
-  double touching = 0, near = 0;
-  skin = largest;
-  for (int ii = 0; ii < neighbours->inum; ii += every)
-    for_each_candidate(neighbours->ilist[ii], [&](int p, int q, double square) {
-      (std::sqrt(square) < rows.radius(p) + rows.radius(q) ? touching : near) += every;
-    });
-  const double cheapest =
-      cdem::cheapest_skin(rows.rows_of(atom->nlocal), touching, near / largest, speed < 0 ? step : speed);
-  skin = std::min(std::max({cheapest, LEAST * largest, SAFETY * step}), largest);
-}
-
 // Blocks are so small that the forces of a block stay in the cache.
 void DiscPairList::divide_into_blocks() {
   constexpr int ROWS = 512;
@@ -273,86 +250,21 @@ void DiscPairList::divide_into_blocks() {
   block_starts.push_back(atom->nlocal);
 }
 
-// Calls visit(row, row, square of their distance) for all pairs of discs of grain i and of its neighbours in LAMMPS's
-// list that may touch before the next rebuild.
-template <class Visit> void DiscPairList::for_each_candidate(int i, Visit visit) const {
-  for (int jj = 0; jj < neighbours->numneigh[i]; jj++) {
-    const int j = neighbours->firstneigh[i][jj] & NEIGHMASK;
-    if (!grains->is_free(i) && !grains->is_free(j))
-      continue;
-    for (int p = rows.rows_of(i); p < rows.rows_of(i + 1); p++)
-      for (int q = rows.rows_of(j); q < rows.rows_of(j + 1); q++) {
-        const double square = square_distance(p, q), reach = rows.radius(p) + rows.radius(q) + skin;
-        if (square < reach * reach)
-          visit(p, q, square);
-      }
-  }
-}
-
-// Of two discs, or of a disc and the axis of a piece of a line.
-double DiscPairList::square_distance(int p, int q) const {
-  if (rows.has_lines()) {
-    if (rows.is_line(p))
-      return cdem::square_distance(rows[q], rows[p], rows.line(p));
-    if (rows.is_line(q))
-      return cdem::square_distance(rows[p], rows[q], rows.line(q));
-  }
-  const double dx = rows[p].x - rows[q].x, dy = rows[p].y - rows[q].y;
-  return dx * dx + dy * dy;
-}
-
-// Segments are in the order of blocks, and within a block in that of materials.
 void DiscPairList::find_pairs() {
-  const int types = atom->ntypes + 1;
-  std::vector<cdem::Material> by_types;
+  const double step = update->dt * rows.fastest(atom->nlocal + atom->nghost).speed(largest_reach());
+  skin = search.cheapest_skin(*neighbours, step, speed);
+  std::vector<cdem::Material> materials; // by two types
   for (const auto &row : *coefficients)
     for (const cdem::Coefficients &of_types : row)
-      by_types.push_back(of_types.material);
-  int lower = -1, block = 0; // of the pair before
-  auto segment_of = [&](int i, int j) {
-    if (std::min(i, j) != lower)
-      block = cdem::block_of(block_starts, lower = std::min(i, j));
-    const auto [low, high] = std::minmax(atom->type[i], atom->type[j]);
-    return (block * types + low) * types + high;
-  };
-
-  std::vector<int> sizes(by_types.size() * (block_starts.size() - 1), 0), next(sizes.size(), 0);
-  struct Found {
-    int p, q, segment; // rows; p is of the grain of the lower id
-  };
-  std::vector<Found> found;
-  std::size_t most = 0; // of atoms that are in LAMMPS's list: neigh_modify include leaves out others
-  for (int ii = 0; ii < neighbours->inum; ii++)
-    most += neighbours->numneigh[neighbours->ilist[ii]];
-  found.reserve(most);
-  for (int ii = 0; ii < neighbours->inum; ii++)
-    for_each_candidate(neighbours->ilist[ii], [&](int p, int q, double square) {
-      const int i = rows.grain(p), j = rows.grain(q), segment = segment_of(i, j);
-      if (square == 0)
-        refuse_same_centre(p, q);
-      const bool p_first = atom->tag[i] < atom->tag[j];
-      found.push_back({p_first ? p : q, p_first ? q : p, segment});
-      sizes[segment]++;
-    });
-  pairs.lay_out(by_types, sizes, {law.memories(), law.constants(), booking ? 2 + law.books() : 0, keeps_forces});
-  auto segment = pairs.segments.begin();
-  for (std::size_t m = 0; m < sizes.size(); m++)
-    if (sizes[m])
-      next[m] = (segment++)->begin;
-  for (const auto &[p, q, segment] : found)
-    pairs.set_discs(next[segment]++, p, q);
+      materials.push_back(of_types.material);
+  search.find(*neighbours, skin, block_starts, materials,
+              {law.memories(), law.constants(), booking ? 2 + law.books() : 0, keeps_forces}, pairs);
 }
 
 const cdem::PairsOfDiscs &DiscPairList::by_disc() const {
   if (!pairs_of_discs)
     pairs_of_discs = slots.by_disc(pairs);
   return *pairs_of_discs;
-}
-
-void DiscPairList::refuse_same_centre(int p, int q) const {
-  error->one(FLERR,
-             "Pair style cdem: discs of atoms {} and {} have the same centre ({}, {}): no direction to push them apart",
-             atom->tag[rows.grain(p)], atom->tag[rows.grain(q)], rows[p].x, rows[p].y);
 }
 
 void DiscPairList::set_constants() {
@@ -417,8 +329,8 @@ void DiscPairList::recall_history(int k) {
   }
 }
 
-cdem::LawTable::Energy DiscPairList::energy(int k, const cdem::Material &m) const {
-  return law.energy(m, pairs.law_constants(k).data(), pairs.remembered(k).data(), overlap(k));
+cdem::LawTable::Energy DiscPairList::energy(int k) const {
+  return law.energy(material(k), pairs.law_constants(k).data(), pairs.remembered(k).data(), overlap(k));
 }
 
 const cdem::Material &DiscPairList::material(int k) const {
@@ -478,7 +390,7 @@ void DiscPairList::finish_step_in_books() {
     return;
   if (rows.has_lines())
     feet.place_all();
-  pairs.for_each([this](int k, const cdem::Material &) {
+  pairs.for_each([this](int k) {
     const auto relative = cdem::relative(rows[pairs.a(k)], rows[pairs.b(k)]);
     const auto contact = cdem::contact_of(relative, cdem::distance_of(relative), pairs.constants(k), update->dt);
     auto last = pairs.last_dashpots_of(k);
@@ -490,7 +402,7 @@ void DiscPairList::finish_step_in_books() {
 void DiscPairList::book_losses() {
   if (!audit || !pairs.has_books())
     return;
-  pairs.for_each([this](int k, const cdem::Material &) {
+  pairs.for_each([this](int k) {
     if (counts(k)) {
       audit->books.friction += pairs.friction[k];
       audit->books.dashpots += pairs.dashpots[k];
@@ -509,7 +421,7 @@ void DiscPairList::copy_history_to_grains() {
   const int own_grains = block_starts.back();
   const int memories = 1 + law.memories(), numbers = memories + (booking ? 2 + law.books() : 0);
   auto for_each_memory = [&](auto visit) { // visit(grain, contact as it remembers it, its numbers)
-    pairs.for_each([&](int k, const cdem::Material &) {
+    pairs.for_each([&](int k) {
       std::array<double, FixCDEMHistory::MOST> all{};
       const auto of_law = pairs.remembered(k);
       std::copy_n(of_law.begin(), memories, all.begin());

@@ -5,6 +5,7 @@
 
 #include "contacts/fix_cdem_history.h"
 #include "contacts/line_feet.h"
+#include "contacts/pair_search.h"
 #include "core/disc_pairs.h"
 #include "core/force_kernel.h"
 #include "core/grid_place.h"
@@ -29,7 +30,7 @@ class Pair;
 class DiscPairList : protected Pointers, public ContactList {
 public:
   // `pair` sends the rows of own grains (see GrainRows) to their ghosts, by rows.pack() and rows.unpack().
-  DiscPairList(LAMMPS *lmp, Pair *pair) : Pointers(lmp), rows(lmp), feet(lmp, rows), carrier(pair) {}
+  DiscPairList(LAMMPS *lmp, Pair *pair) : Pointers(lmp), rows(lmp), search(lmp, rows), feet(lmp, rows), carrier(pair) {}
 
   // Coefficients by the types of two atoms, from 1 on; index 0 is not used.
   using ByTypes = std::vector<std::vector<cdem::Coefficients>>;
@@ -78,7 +79,7 @@ public:
   const cdem::PairForce &force(int k) const;
   bool counts(int k) const; // whether this rank is the one that counts it
   const cdem::Material &material(int k) const;
-  cdem::LawTable::Energy energy(int k, const cdem::Material &) const;
+  cdem::LawTable::Energy energy(int k) const;
   cdem::Resistance resistance(int k) const;
 
   GrainRows rows;
@@ -94,11 +95,8 @@ public:
 
 private:
   void build();
-  void choose_skin();
   void divide_into_blocks();
-  template <class Visit> void for_each_candidate(int i, Visit) const;
   void find_pairs();
-  void refuse_same_centre(int p, int q) const;
   void set_constants();
   void set_law_constants(int k);
   cdem::TwoGrains::Grain grain_of(int row) const;
@@ -115,8 +113,7 @@ private:
 
   double most_moved() const;
 
-  double square_distance(int p, int q) const;
-
+  PairSearch search;
   LineFeet feet;
   Pair *const carrier;
   FixCDEMAudit *audit = nullptr;

@@ -19,15 +19,14 @@ void LineFeet::take_over(cdem::DiscPairs &pairs) {
   first_of_block.assign(1, 0);
   std::vector<int> piece_of_foot;
   for (std::size_t block = 0; block + 1 < pairs.first_segment.size(); block++) {
-    for (int s = pairs.first_segment[block]; s < pairs.first_segment[block + 1]; s++)
-      for (int k = pairs.segments[s].begin; k < pairs.segments[s].end; k++) {
-        const int a = pairs.a(k), b = pairs.b(k);
-        if (!rows.is_line(a) && !rows.is_line(b))
-          continue;
-        const int piece = rows.is_line(a) ? a : b;
-        feet.push_back({a + b - piece, piece, k, rows.line(piece), &beside[piece], true});
-        piece_of_foot.push_back(piece);
-      }
+    pairs.for_each_of_block(int(block), [&](int k) {
+      const int a = pairs.a(k), b = pairs.b(k);
+      if (!rows.is_line(a) && !rows.is_line(b))
+        return;
+      const int piece = rows.is_line(a) ? a : b;
+      feet.push_back({a + b - piece, piece, k, rows.line(piece), &beside[piece], true});
+      piece_of_foot.push_back(piece);
+    });
     first_of_block.push_back(int(feet.size()));
   }
   rows.make_feet(piece_of_foot);

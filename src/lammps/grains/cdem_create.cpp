@@ -38,32 +38,34 @@ void CDEMCreate::command(int narg, char **arg) {
   const std::string shape = words.word("row or fill");
   if (shape != "row" && shape != "fill")
     error->all(FLERR, "cdem/create: {}: must be row or fill", shape);
-  const std::vector<Disc> discs = shape == "row" ? row(words) : fill(words);
+  const auto [discs, density] = shape == "row" ? cdem::read_row(words) : fill(words);
   words.end();
   for (const Disc &disc : discs)
     check(disc);
-  create(discs);
+  if (shape == "row")
+    check_joints(discs);
+  create(discs, density);
   if (comm->me == 0)
     utils::logmesg(lmp, "Created {} discs of type {}\n", discs.size(), type);
 }
 
-std::vector<CDEMCreate::Disc> CDEMCreate::row(Words &words) {
-  const double x1 = words.number("X1"), y1 = words.number("Y1");
-  const double x2 = words.number("X2"), y2 = words.number("Y2");
-  const int n = words.count("number of discs");
-  words.keyword("diameter");
-  const double diameter = words.positive("diameter");
-  read_density(words);
-  const std::vector<Disc> discs = cdem::discs_in_a_row({x1, y1}, {x2, y2}, n, diameter);
-  if (const cdem::GrainShape &shape = FixCDEMShape::shape(lmp, type); n > 1 && shape.is_line())
-    check_joints(discs, shape.axis(0.5 * diameter));
-  return discs;
+cdem::Creation CDEMCreate::fill(Words &words) const {
+  try {
+    return cdem::read_fill(words);
+  } catch (const std::invalid_argument &bad) {
+    error->all(FLERR, "cdem/create: {}", bad.what());
+  }
+  return {};
 }
 
 // Pieces of a smooth wall, one behind the other, act as one wall only where their ends meet: where they overlap, both
 // push a disc, and a disc over a small gap leans on both ends.
-void CDEMCreate::check_joints(const std::vector<Disc> &row, const cdem::WallLine &axis) const {
+void CDEMCreate::check_joints(const std::vector<Disc> &row) const {
   constexpr double TOLERANCE = 5e-7; // of a piece's length: as in contacts/line_feet.cpp, there of half of it
+  const cdem::GrainShape &piece = FixCDEMShape::shape(lmp, type);
+  if (row.size() < 2 || !piece.is_line())
+    return;
+  const cdem::WallLine axis = piece.axis(0.5 * row[0].diameter);
   const double dx = row[1].x - row[0].x, dy = row[1].y - row[0].y, length = 2 * axis.half;
   const double apart = std::fabs(dx * axis.ux + dy * axis.uy);
   if (std::fabs(dx * axis.uy - dy * axis.ux) > TOLERANCE * length)
@@ -75,32 +77,6 @@ void CDEMCreate::check_joints(const std::vector<Disc> &row, const cdem::WallLine
     error->all(FLERR, "{}: they overlap, and each would push a disc there", what);
   if (apart > (1 + TOLERANCE) * length && apart < 2 * length && comm->me == 0)
     error->warning(FLERR, what + ": in the gaps the wall is not smooth");
-}
-
-std::vector<CDEMCreate::Disc> CDEMCreate::fill(Words &words) {
-  cdem::Filling grains{};
-  grains.n = words.count("number of grains");
-  words.keyword("region");
-  grains.xlo = words.number("XLO"), grains.xhi = words.number("XHI");
-  grains.ylo = words.number("YLO"), grains.yhi = words.number("YHI");
-  words.keyword("diameter");
-  grains.smallest = words.positive("DMIN"), grains.largest = words.positive("DMAX");
-  words.keyword("power");
-  grains.power = words.number("power");
-  read_density(words);
-  words.keyword("seed");
-  const int seed = words.count("seed");
-  try {
-    return grains.discs(seed);
-  } catch (const std::invalid_argument &bad) {
-    error->all(FLERR, "cdem/create: {}", bad.what());
-  }
-  return {};
-}
-
-void CDEMCreate::read_density(Words &words) {
-  words.keyword("density");
-  density = words.positive("density");
 }
 
 void CDEMCreate::check(const Disc &disc) const {
@@ -123,7 +99,7 @@ bool CDEMCreate::is_mine(const Disc &disc) const {
 
 // Every rank has the list of all discs. It makes those in its own part of the box, and numbers them by their places in
 // the list.
-void CDEMCreate::create(const std::vector<Disc> &discs) {
+void CDEMCreate::create(const std::vector<Disc> &discs, double density) {
   tagint largest = 0, offset;
   for (int i = 0; i < atom->nlocal; i++)
     largest = std::max(largest, atom->tag[i]);

@@ -20,8 +20,7 @@
 // ranks.
 #pragma once
 
-#include "core/fill.h"
-#include "core/wall_line.h"
+#include "core/create_words.h"
 #include "host/deck_words.h"
 
 #include "command.h"
@@ -39,16 +38,13 @@ private:
   using Disc = cdem::PlacedDisc;
   using Words = Shearbox::DeckWords;
 
-  std::vector<Disc> row(Words &);
-  std::vector<Disc> fill(Words &);
-  void read_density(Words &);
+  cdem::Creation fill(Words &) const;
   void check(const Disc &) const;
-  void check_joints(const std::vector<Disc> &row, const cdem::WallLine &axis) const;
+  void check_joints(const std::vector<Disc> &row) const;
   bool is_mine(const Disc &) const;
-  void create(const std::vector<Disc> &);
+  void create(const std::vector<Disc> &, double density);
 
   int type = 0;
-  double density = 0;
 };
 
 } // namespace LAMMPS_NS

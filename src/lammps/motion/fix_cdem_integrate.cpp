@@ -2,7 +2,6 @@
 #include "motion/fix_cdem_integrate.h"
 
 #include "contacts/pair_cdem.h"
-#include "grains/fix_cdem_audit.h"
 #include "grains/fix_cdem_shape.h"
 #include "host/compat.h"
 #include "host/deck_words.h"
@@ -36,7 +35,7 @@ struct Kept {
 FixCDEMIntegrate *FixCDEMIntegrate::find(LAMMPS *lmp) { return Shearbox::find_fix<FixCDEMIntegrate>(lmp); }
 
 FixCDEMIntegrate::FixCDEMIntegrate(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), guard(lmp), step(lmp, this) {
+    : Fix(lmp, narg, arg), guard(lmp), body_forces(lmp), step(lmp, this) {
   if (domain->dimension != 2)
     error->all(FLERR, "Fix cdem/integrate: dimension is {}, must be 2", domain->dimension);
   if (!Shearbox::is_sphere(atom))
@@ -52,11 +51,9 @@ FixCDEMIntegrate::FixCDEMIntegrate(LAMMPS *lmp, int narg, char **arg)
       inertia_factor = words.positive("inertia");
     else if (words.take("rescue"))
       set_rescue(words.word("rescue: a file or none"));
-    else if (!take_body_force(words))
-      error->all(FLERR,
-                 "Fix cdem/integrate: unknown keyword {}; allowed: {}, gravity GX GY, drag T, damping A, inertia F, "
-                 "rescue FILE|none",
-                 words.word("a keyword"), StepChoice::WORDS);
+    else if (!body_forces.parse(words))
+      error->all(FLERR, "Fix cdem/integrate: unknown keyword {}; allowed: {}, {}, inertia F, rescue FILE|none",
+                 words.word("a keyword"), StepChoice::WORDS, BodyForces::WORDS);
   }
 
   time_integrate = 1;
@@ -85,35 +82,11 @@ void FixCDEMIntegrate::take_grains() {
   grains->begin_moving(this);
 }
 
-// If the next word is a keyword of a body force, reads it with its values and returns true.
-bool FixCDEMIntegrate::take_body_force(Shearbox::DeckWords &words) {
-  if (words.take("gravity")) {
-    for (double &component : gravity)
-      component = words.finite("gravity");
-  } else if (words.take("drag")) {
-    if (words.take("none")) {
-      drag = 0;
-      return true;
-    }
-    const double time = words.finite("drag");
-    if (!(time > 0))
-      error->all(FLERR, "Fix cdem/integrate: drag {}: the time must be positive (s), or none", time);
-    drag = 1 / time;
-  } else if (words.take("damping")) {
-    damping = words.finite("damping");
-    if (!(damping >= 0 && damping < 1))
-      error->all(FLERR, "Fix cdem/integrate: damping {}: must be from 0 to less than 1 (share of the force)", damping);
-  } else {
-    return false;
-  }
-  return true;
-}
-
 void FixCDEMIntegrate::set_rescue(const std::string &file) { guard.set_file(file == "none" ? "" : file); }
 
 int FixCDEMIntegrate::modify_param(int narg, char **arg) {
   Shearbox::DeckWords words(lmp, "Fix cdem/integrate", narg, arg);
-  take_body_force(words);
+  body_forces.parse(words);
   tell_grains();
   known_dt = 0; // the next step takes what depends on it anew, also in a run without a setup
   return words.read();
@@ -124,9 +97,7 @@ void FixCDEMIntegrate::tell_grains() {
   for (int type = 1; type <= atom->ntypes; type++)
     inertia.push_back(inertia_factor * FixCDEMShape::shape(lmp, type).inertia());
   grains->set_inertias(inertia);
-  std::copy_n(gravity, 2, grains->gravity);
-  grains->drag = drag;
-  grains->damping = damping;
+  body_forces.tell_grains();
 }
 
 int FixCDEMIntegrate::setmask() {
@@ -143,7 +114,7 @@ void FixCDEMIntegrate::init() {
   refuse_second_integrator();
   if (update->whichflag != 0) // else no run begins
     warn_of_belts();
-  audit = FixCDEMAudit::find(lmp);
+  body_forces.init();
   tell_grains();
   settle_angles();
   refuse_lost_shapes();
@@ -151,9 +122,6 @@ void FixCDEMIntegrate::init() {
   step.init();
   reset_dt();
 }
-
-// Asked by the run style, whose init() is before ours: `audit` is still that of the last run.
-bool FixCDEMIntegrate::needs_every_step() const { return damping != 0 && FixCDEMAudit::find(lmp); }
 
 // Between two runs, where newer LAMMPS calls it for the command timestep, the scene is not known yet; init() takes it
 // up.
@@ -178,7 +146,8 @@ void FixCDEMIntegrate::tell_rules() {
       rules.add(shape.axis(1).ux).add(shape.axis(1).uy);
     rules.add(grains->inertia(type));
   }
-  grains->set_rules(rules.add(gravity[0]).add(gravity[1]).add(drag).add(damping).add(update->dt).value());
+  const cdem::StepRule made = grains->step_rule();
+  grains->set_rules(rules.add(made.gx).add(made.gy).add(made.drag).add(made.damping).add(made.dt).value());
 }
 
 void FixCDEMIntegrate::refuse_lost_shapes() const {
@@ -324,7 +293,7 @@ void FixCDEMIntegrate::initial_integrate(int) {
 // Right after the contacts' forces: fixes that set forces, such as freeze, act on all of them, wherever they are
 // defined.
 void FixCDEMIntegrate::pre_reverse(int, int) {
-  add_body_forces();
+  body_forces.add();
   grains->forces_are_there();
 }
 
@@ -332,62 +301,7 @@ void FixCDEMIntegrate::setup_pre_reverse(int, int) {
   if (goes_on)
     grains->restore_forces();
   else
-    add_body_forces();
-}
-
-void FixCDEMIntegrate::add_body_forces() {
-  if (!grains->step_rule().has_body_forces())
-    return;
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!grains->is_free(i))
-      continue;
-    for (int k = 0; k < 2; k++)
-      atom->f[i][k] += atom->rmass[i] * (gravity[k] - drag * atom->v[i][k]);
-  }
-  if (!update->setupflag)
-    book_drag_at([this](int i) { return std::pair(atom->v[i][0], atom->v[i][1]); });
-  if (damping != 0)
-    damp();
-}
-
-void FixCDEMIntegrate::damp() {
-  double lost = 0;
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!grains->is_free(i))
-      continue;
-    const FixCDEMGrains::Inverse inverse = grains->inverse(i);
-    for (int k = 0; k < 2; k++)
-      damp(atom->f[i][k], atom->v[i][k], inverse.mass, lost);
-    damp(atom->torque[i][2], atom->omega[i][2], inverse.inertia, lost);
-  }
-  if (audit && !update->setupflag)
-    audit->books.drag += update->dt * lost;
-}
-
-// Adds to `lost` the power that damping takes out (W), at the velocity in the middle of the kick: that of the half step
-// is half a step behind.
-void FixCDEMIntegrate::damp(double &force, double velocity, double inverse_mass, double &lost) const {
-  const double resistance = damping * cdem::opposing(force, velocity);
-  force += resistance;
-  lost -= resistance * (velocity + 0.5 * update->dt * inverse_mass * force);
-}
-
-void FixCDEMIntegrate::book_drag(const GrainRows &rows) {
-  book_drag_at([&](int i) { return std::pair(rows.of_grain(i).vx_half, rows.of_grain(i).vy_half); });
-}
-
-// At the velocity of the half step, in the middle of the step that is booked.
-template <class Velocity> void FixCDEMIntegrate::book_drag_at(Velocity velocity) {
-  if (!audit || drag == 0)
-    return;
-  double power = 0;
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!grains->is_free(i))
-      continue;
-    const auto [vx, vy] = velocity(i);
-    power += drag * atom->rmass[i] * (vx * vx + vy * vy);
-  }
-  audit->books.drag += update->dt * power;
+    body_forces.add();
 }
 
 void FixCDEMIntegrate::final_integrate() {

@@ -58,6 +58,7 @@
 
 #include "grains/fix_cdem_grains.h"
 #include "host/glides.h"
+#include "motion/body_forces.h"
 #include "motion/guard.h"
 #include "motion/step_choice.h"
 
@@ -70,8 +71,6 @@
 namespace LAMMPS_NS {
 
 class DiscPairList;
-class FixCDEMAudit;
-class GrainRows;
 
 class FixCDEMIntegrate : public Fix, public Glides {
 public:
@@ -104,19 +103,16 @@ public:
   void write_restart(FILE *) override;
   void restart(char *) override;
 
-  // What damping takes out is booked from the forces, which only a step on the atoms has.
-  bool needs_every_step() const override;
-  // Books the energy that drag takes out in a step made on the rows, if there is an audit.
-  void book_drag(const GrainRows &);
+  bool needs_every_step() const override { return body_forces.books_forces(); }
   // Has the neighbour list rebuilt in the next step.
   void rebuild_next() { next_reneighbor = update->ntimestep + 1; }
   // Stability limit of the present contacts (s), all ranks together.
   double contact_limit() { return step.contacts.find(step.scene_limit(), INFINITY); }
 
   Guard guard;
+  BodyForces body_forces;
 
 private:
-  bool take_body_force(Shearbox::DeckWords &);
   void set_rescue(const std::string &file);
   void take_grains();
   void tell_grains();
@@ -125,18 +121,12 @@ private:
   void refuse_second_integrator() const;
   void refuse_lost_shapes() const;
   void warn_of_belts() const;
-  void add_body_forces();
   void take_accelerations();
   double smallest_disc() const;
-  template <class Velocity> void book_drag_at(Velocity);
-  void damp();
-  void damp(double &force, double velocity, double inverse_mass, double &lost) const;
 
   StepChoice step;
   DiscPairList *contacts = nullptr;
   FixCDEMGrains *grains = nullptr;
-  FixCDEMAudit *audit = nullptr;
-  double gravity[2] = {0, 0}, drag = 0, damping = 0; // m/s^2, 1/s, share of the force
   double inertia_factor = 1;
   double known_dt = 0;   // s, for which the step has been checked
   bool goes_on = false;  // the run begins with the forces of the last step

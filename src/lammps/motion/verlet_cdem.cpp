@@ -183,7 +183,7 @@ void VerletCDEM::glide_on(bigint target) {
 
 // The loop that moves the grains also serves the first fix that sums up steps; others have loops of their own.
 void VerletCDEM::step(cdem::Fastest &fastest) {
-  integrate->book_drag(contacts->rows);
+  integrate->body_forces.book_drag(contacts->rows);
   const auto first = statistics.begin(), end = statistics.end();
   contacts->forces_and_advance(rule, felt, fastest, first != end ? (*first)->travel() : nullptr);
   move_walls(fastest);

@@ -63,7 +63,7 @@ void place(const cdem::GrainShape &shape, cdem::Point at, double radius, double 
 
 CellFields::CellFields(LAMMPS *lmp, int group_bit, Shearbox::DeckWords words, char **arg,
                        const std::vector<Field> &before)
-    : Pointers(lmp), who(words.who), group_bit(group_bit), limits(lmp, who, words) {
+    : Pointers(lmp), who(words.who), group_bit(group_bit), within(lmp, who, words) {
   std::vector<Field> known = before;
   known.insert(known.end(), all_fields.begin(), all_fields.end());
   fields = Shearbox::choose_fields(lmp, who, words.left(), arg + words.read(), known);
@@ -72,7 +72,7 @@ CellFields::CellFields(LAMMPS *lmp, int group_bit, Shearbox::DeckWords words, ch
 void CellFields::init() {
   pair = PairCDEM::needed_by(who, lmp);
   grains = FixCDEMGrains::find(lmp); // the pair style has seen that there is one
-  limits.init();
+  within.init();
 }
 
 bool CellFields::counts(int i) const {
@@ -81,7 +81,7 @@ bool CellFields::counts(int i) const {
 
 std::vector<std::vector<double>> CellFields::rows(int nx, int ny) const {
   const std::vector<Contact> contacts = pair->report.contacts();
-  const cdem::Rectangle in = limits.rectangle();
+  const cdem::Rectangle in = within.rectangle();
   cdem::FieldSums sums(in, nx, ny, largest(contacts));
   add_grains(sums, in, contacts);
   add_branches(sums, in, contacts);

@@ -6,8 +6,8 @@
 #include "contacts/contact_report.h"
 #include "core/field_sums.h"
 #include "host/deck_words.h"
-#include "output/limits.h"
 #include "output/named_fields.h"
+#include "output/within.h"
 
 #include "pointers.h"
 
@@ -43,7 +43,7 @@ private:
 
   const std::string who;
   const int group_bit;
-  Limits limits;
+  Within within;
   std::vector<Field> fields;
   const PairCDEM *pair = nullptr;
   const FixCDEMGrains *grains = nullptr;

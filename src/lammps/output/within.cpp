@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "output/limits.h"
+#include "output/within.h"
 
 #include "domain.h"
 #include "error.h"
@@ -8,7 +8,7 @@
 
 using namespace LAMMPS_NS;
 
-Limits::Limits(LAMMPS *lmp, const std::string &who, Shearbox::DeckWords &words) : Pointers(lmp), who(who) {
+Within::Within(LAMMPS *lmp, const std::string &who, Shearbox::DeckWords &words) : Pointers(lmp), who(who) {
   if (!words.take("within"))
     return;
   for (Side &side : sides) {
@@ -23,7 +23,7 @@ Limits::Limits(LAMMPS *lmp, const std::string &who, Shearbox::DeckWords &words) 
   }
 }
 
-void Limits::init() {
+void Within::init() {
   for (Side &side : sides) {
     if (!side.is_variable())
       continue;
@@ -34,13 +34,13 @@ void Limits::init() {
   }
 }
 
-double Limits::at(const Side &side, double edge) const {
+double Within::at(const Side &side, double edge) const {
   if (side.is_variable())
     return input->variable->compute_equal(side.variable);
   return side.word == "EDGE" ? edge : side.value;
 }
 
-cdem::Rectangle Limits::rectangle() const {
+cdem::Rectangle Within::rectangle() const {
   const cdem::Rectangle in{at(sides[0], domain->boxlo[0]), at(sides[1], domain->boxhi[0]),
                            at(sides[2], domain->boxlo[1]), at(sides[3], domain->boxhi[1])};
   check("x", in.xlo, in.xhi, domain->xperiodic ? domain->xprd : 0);
@@ -48,7 +48,7 @@ cdem::Rectangle Limits::rectangle() const {
   return in;
 }
 
-void Limits::check(const char *axis, double lo, double hi, double period) const {
+void Within::check(const char *axis, double lo, double hi, double period) const {
   if (!(lo < hi))
     error->all(FLERR, "{}: within {} and {} in {}: the first must be below the second", who, lo, hi, axis);
   if (period > 0 && hi - lo > period * (1 + 1e-9))

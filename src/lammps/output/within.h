@@ -13,10 +13,10 @@
 
 namespace LAMMPS_NS {
 
-class Limits : protected Pointers {
+class Within : protected Pointers {
 public:
   // Without the keyword, all sides are EDGE. `who` begins error messages.
-  Limits(LAMMPS *lmp, const std::string &who, Shearbox::DeckWords &words);
+  Within(LAMMPS *lmp, const std::string &who, Shearbox::DeckWords &words);
 
   void init(); // finds the variables
   cdem::Rectangle rectangle() const;
