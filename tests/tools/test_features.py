@@ -8,8 +8,8 @@ import pytest
 from synthetic import correlated_noise, curves
 
 from shearbox_tools import features
-from shearbox_tools.peak import find_peak
-from shearbox_tools.polynomial import fit_curve
+from shearbox_tools.peak import find_peak, steepest
+from shearbox_tools.polynomial import end_zone, fit_curve
 from shearbox_tools.strength import fit_line
 
 SIGMA = np.array([100.0, 200, 300, 400])
@@ -58,11 +58,23 @@ def fits(lid: np.ndarray | None = None):
 
 def test_dilation_and_its_steepest_point():
     tau, peak, lid = fits()
-    position, rate = features.steepest_dilatancy(lid)
+    position, rate = steepest(lid)
     assert position == pytest.approx(1.6, abs=0.3)
     assert rate == pytest.approx(0.25, abs=0.05)
     assert features.dilates(lid, peak).holds is True
     assert features.peak_at_steepest(tau, peak, lid).holds is True
+
+
+@pytest.mark.parametrize("lowest, at_start", [(3, True), (2.28, False)])
+def test_the_lid_may_rise_steepest_as_shear_begins(lowest, at_start):
+    """Slope 0.5 - 0.02 (s^3/3 - (m + 6) s^2/2 + 6 m s), lowest at m and highest inside at 6 mm. A twentieth of the travel from the
+    start it is higher: by 0.23, or by 0.005, which is lost in the noise."""
+    s = curves(200, 8)["displacement_mm"]
+    slope = np.polynomial.Polynomial([0.5, -0.02 * 6 * lowest, 0.01 * (lowest + 6), -0.02 / 3])
+    noise = correlated_noise(np.random.default_rng(2), len(s), 0.02, 8)
+    position, rate = steepest(fit_curve(s, slope.integ()(s) + noise, through_origin=True))
+    assert position == pytest.approx(end_zone(s[-1]) if at_start else 6, abs=0.3)
+    assert rate == pytest.approx(slope(position), rel=0.1)
 
 
 def test_contraction_does_not_dilate():

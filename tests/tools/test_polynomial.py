@@ -3,9 +3,10 @@
 
 import numpy as np
 import pytest
+from numpy.polynomial.polyutils import mapdomain
 from synthetic import correlated_noise, softening
 
-from shearbox_tools.peak import find_peak, turning_points
+from shearbox_tools.peak import find_peak, maxima
 from shearbox_tools.polynomial import DEGREES, block_averages, correlation_length, end_zone, fit_curve
 
 TRAVEL = 8.0
@@ -127,13 +128,32 @@ def test_through_the_origin():
     assert np.polynomial.legendre.legval(-1, fit.replicas(20)) == pytest.approx(np.zeros(20), abs=1e-12)
 
 
-def test_turning_points_are_maxima_only():
+def test_error_of_the_slope():
+    """That of 2 a x + b by the covariance of a parabola through the averages of the blocks."""
+    s = displacement()
+    noise = np.random.default_rng(7).normal(size=ROWS)
+    fit = fit_curve(s, 3 * s - 0.2 * s**2 + noise)
+    assert fit.degree == 2
+    blocks = block_averages(s, fit.rows_per_block)
+    _, covariance = np.polyfit(blocks, fit.y, 2, cov=True)
+    for x in (0.4, 4.0):
+        gradient = np.array([2 * x, 1, 0])
+        assert fit.slope_error(x)[0] == pytest.approx(np.sqrt(gradient @ covariance @ gradient), rel=0.01)
+
+
+def turning_points(series: np.polynomial.Legendre) -> list[float]:
+    """Positions of the local maxima, ascending."""
+    tops = maxima(series.coef[:, None])
+    return np.sort(mapdomain(tops[np.isfinite(tops)], series.window, series.domain)).tolist()
+
+
+def test_maxima_only():
     cubic = np.polynomial.Polynomial([0, -3, 0, 1]).convert(kind=np.polynomial.Legendre, domain=[-2, 2])
     assert turning_points(cubic) == pytest.approx([-1])
 
 
 @pytest.mark.parametrize("count", range(1, 6))
-def test_turning_points_of_every_degree(count):
+def test_maxima_of_every_degree(count):
     zeros = np.linspace(0.7, 5.3, count) ** 1.1  # of the derivative: its sign changes at each, last to the negative
     rising = -np.polynomial.Polynomial.fromroots(zeros)
     curve = rising.integ().convert(kind=np.polynomial.Legendre, domain=[0, 8])

@@ -9,8 +9,8 @@ import numpy as np
 from shearbox_tools.campaign import read_timings
 from shearbox_tools.ensemble import lines_of
 from shearbox_tools.ensemble_results import FEATURES, holds_in
-from shearbox_tools.features import steepest_dilatancy
 from shearbox_tools.grouping import LeftOut
+from shearbox_tools.peak import steepest
 from shearbox_tools.reading import read_all, read_quietly
 from shearbox_tools.results import Results
 from shearbox_tools.shear import Shear
@@ -166,7 +166,7 @@ def numbers(shear: Shear, bed: Numbers) -> Numbers:
         "end": shear.at_end.ratio,
         "sharpness": shear.peak.value / float(np.mean(rows["tau_kPa"][ultimate_rows(len(s))])),
         "dilation_deg": shear.at_peak.dilation_deg,
-        "steepest": steepest_dilatancy(shear.lid)[1],
+        "steepest": steepest(shear.lid)[1],
         "highest_mm": float(np.max(rows["lid_mm"])),
         "late_rate": float((rows["lid_mm"][-1] - rows["lid_mm"][half]) / (s[-1] - s[half])),
         "trm": float(rows["trm"][-1]),

@@ -10,7 +10,7 @@ import numpy as np
 from .differences import Difference, Mean, difference, mean, mean_angle, mean_strength
 from .ensemble import lines_of, strength_of_independent
 from .ensemble_results import Ensemble
-from .features import steepest_dilatancy
+from .peak import steepest
 from .results import Results
 from .shear import Shear
 
@@ -53,7 +53,7 @@ BY_STRESS = [
     Measure("ratio_at_peak", "peak τ/σ", "–", 3, lambda shear: shear.at_peak.ratio),
     Measure("ratio_at_end", "τ/σ at the end", "–", 3, lambda shear: shear.at_end.ratio),
     *OVER_STRESSES,
-    Measure("steepest_dilatancy", "steepest dilatancy", "mm/mm", 3, lambda shear: steepest_dilatancy(shear.lid)[1]),
+    Measure("steepest_dilatancy", "steepest dilatancy", "mm/mm", 3, lambda shear: steepest(shear.lid)[1]),
     Measure("lid_highest_mm", "highest lid", "mm", 2, lambda shear: _highest(shear)),
 ]
 

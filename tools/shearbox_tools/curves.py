@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.polynomial import Legendre
 
-from .features import steepest_dilatancy
+from .peak import steepest
 from .polynomial import Fit, end_zone
 from .results import Results
 from .shear import Shear
@@ -61,7 +61,7 @@ def dilatancy(results: Results) -> Figure:
         _draw_fit(axes, shear, rate, look, k, zone)
         if not shear.peak.at_boundary:  # where the slope of the fit is not held, and beyond the diagram
             _draw_peak(axes, shear.peak.position, rate(shear.peak.position), look)
-        axes.plot(*steepest_dilatancy(shear.lid), "*", ms=10, color=look.colour, mec="white", mew=0.6, zorder=5)
+        axes.plot(*steepest(shear.lid), "*", ms=10, color=look.colour, mec="white", mew=0.6, zorder=5)
         heights.append(rate(np.linspace(zone, shear.lid.span - zone, 200)))
     _finish(axes, results, heights)
     angle = axes.secondary_yaxis("right", functions=(_degrees, _slope))

@@ -8,8 +8,8 @@ import sys
 
 import numpy as np
 
-from .peak import Peak, turning_points
-from .polynomial import Fit, end_zone
+from .peak import Peak, steepest
+from .polynomial import Fit
 from .strength import Line
 from .verdict import Verdict, told_apart
 
@@ -44,21 +44,9 @@ def dilates(lid: Fit, peak: Peak) -> Verdict:
     return Verdict(height / error > LEAST_STANDARD_ERRORS, reason)
 
 
-def steepest_dilatancy(lid: Fit) -> tuple[float, float]:
-    """Position (mm) and rate (mm/mm) of the steepest rise of the lid, away from the ends of the fit.
-
-    The highest turning point of the rate; where it has none, the greater of its values at the two end zones.
-    """
-    rate = lid.series.deriv()
-    ends = (end_zone(lid.span), lid.span - end_zone(lid.span))
-    inside = [s for s in turning_points(rate) if ends[0] < s < ends[1]]
-    position = max(inside or ends, key=rate)
-    return float(position), float(rate(position))
-
-
 def peak_at_steepest(tau: Fit, peak: Peak, lid: Fit) -> Verdict:
     """Feature 3: where the lid rises fastest, tau is at least 90 % of its peak."""
-    position, rate = steepest_dilatancy(lid)
+    position, rate = steepest(lid)
     percent = 100 * float(tau.series(position)) / peak.value
     reason = (
         f"steepest dilatancy {told_apart(rate, 0, 3)} mm/mm at {position:.2f} mm, where τ is "

@@ -4,8 +4,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.polynomial import Legendre, legendre
-from numpy.polynomial.polyutils import mapdomain
+from numpy.polynomial import legendre
 
 from .polynomial import Fit, end_zone
 
@@ -36,41 +35,45 @@ def find_peak(fit: Fit) -> Peak:
     The uncertainties are the root mean square deviations of the bootstrap replicas from the peak: they hold
     the noise, the choice of the degree, and the bias of taking the maximum of a noisy curve.
     """
-    margins = 2 * fit.error(np.array([end_zone(fit.span), fit.span]))
-    (position,), (value,), (at_boundary,), (falls,) = _locate(fit.series.coef[:, None], fit.span, margins)
-    positions, values, *_ = _locate(fit.replicas(REPLICAS), fit.span, margins)
+    ends = np.array([end_zone(fit.span), fit.span])
+    margins = 2 * fit.error(ends)
+    (position,), (value,), (at_boundary,), (falls,) = _locate(fit.series.coef[:, None], fit.span, ends, margins)
+    positions, values, *_ = _locate(fit.replicas(REPLICAS), fit.span, ends, margins)
     errors = _rms(values - value), _rms(positions - position)
     return Peak(float(value), errors[0], float(position), errors[1], bool(at_boundary), bool(falls))
 
 
+def steepest(fit: Fit) -> tuple[float, float]:
+    """Where a fitted curve rises fastest, and its slope there, by the rule of find_peak for the slope: within `end_zone` of either
+    end a slope is hardly held, so both ends of the curve are where these zones begin."""
+    ends = np.array([end_zone(fit.span), fit.span - end_zone(fit.span)])
+    slopes = fit.series.deriv().coef[:, None]
+    (position,), (slope,), *_ = _locate(slopes, fit.span, ends, 2 * fit.slope_error(ends))
+    return float(position), float(slope)
+
+
 def _locate(
-    curves: np.ndarray, span: float, margins: np.ndarray
+    curves: np.ndarray, span: float, ends: np.ndarray, margins: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Positions of the peaks of polynomials on [0, span], their heights, whether they are at an end, and at the first.
 
-    curves: (n, c) Legendre coefficients of c polynomials; margins: by which either end must be higher than what is inside.
+    curves: (n, c) Legendre coefficients of c polynomials; ends: two places, which count if they are higher than what is inside by
+    more than their margins.
     """
-    inner = 1 - end_zone(2)
-    tops = _maxima(curves)
-    heights = np.where(np.abs(tops) < inner, legendre.legval(tops, curves, tensor=False), -np.inf)
+    tops = maxima(curves)
+    heights = np.where(np.abs(tops) < 1 - end_zone(2), legendre.legval(tops, curves, tensor=False), -np.inf)
     highest = heights.argmax(axis=0)[None]
     top, height = (np.take_along_axis(of, highest, axis=0)[0] for of in (tops, heights))
-    first, last = legendre.legval(np.array([-inner, 1]), curves).T
+    first, last = legendre.legval(2 * ends / span - 1, curves).T
     highest_first, highest_last = first > height + margins[0], last > height + margins[1]
     rises = highest_last & ((last > first) | ~highest_first)
     falls = highest_first & ~rises
-    places = np.select([rises, falls], [1.0, -inner], top)
+    positions = np.select([rises, falls], [ends[1], ends[0]], span * (top + 1) / 2)
     values = np.select([rises, falls], [last, first], height)
-    return span * (places + 1) / 2, values, rises | falls, falls
+    return positions, values, rises | falls, falls
 
 
-def turning_points(series: Legendre) -> list[float]:
-    """Positions of the local maxima, ascending."""
-    tops = _maxima(series.coef[:, None])
-    return np.sort(mapdomain(tops[np.isfinite(tops)], series.window, series.domain)).tolist()
-
-
-def _maxima(curves: np.ndarray) -> np.ndarray:
+def maxima(curves: np.ndarray) -> np.ndarray:
     """(n, c) where Legendre series, (n, c), have their local maxima, NaN for the rest: real zeros of the derivative
     where the second derivative is negative."""
     slopes = legendre.legder(curves)

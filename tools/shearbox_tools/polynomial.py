@@ -59,8 +59,17 @@ class Fit:
 
     def error(self, x: np.ndarray | float) -> np.ndarray:
         """Standard error of the fitted value at x, for the chosen degree."""
-        vander = _vander(np.atleast_1d(x), self.span) @ self.basis[:, : len(self.coefficients)]
-        return np.sqrt(np.einsum("ij,jk,ik->i", vander, self.covariance, vander))
+        return self._error(_vander(np.atleast_1d(x), self.span) @ self.basis)
+
+    def slope_error(self, x: np.ndarray | float) -> np.ndarray:
+        """That of the slope of the fitted curve."""
+        slopes = legendre.legder(self.basis, scl=2 / self.span)
+        return self._error(_vander(np.atleast_1d(x), self.span)[:, :-1] @ slopes)
+
+    def _error(self, functions: np.ndarray) -> np.ndarray:
+        """Standard errors of sums of (n, m) functions with the coefficients."""
+        functions = functions[:, : len(self.coefficients)]
+        return np.sqrt(np.einsum("ij,jk,ik->i", functions, self.covariance, functions))
 
     def replicas(self, count: int, seed: int = 1) -> np.ndarray:
         """(highest degree + 1, count) Legendre coefficients over [0, span] of polynomials fitted to resampled residuals,

@@ -9,9 +9,9 @@ import numpy as np
 
 from . import __version__
 from .campaign import read_timings
-from .features import steepest_dilatancy
 from .files import PACKED, log_file
 from .logs import Log, read_logs
+from .peak import steepest
 from .phases import CONSOLIDATE, PACK, SHEAR
 from .plane import OnPlane
 from .presets import LAMMPS
@@ -84,7 +84,7 @@ def of_line(line: Line | None, which: str = "") -> dict[str, float | None]:
 
 def _stress(results: Results, shear: Shear) -> dict[str, Any]:
     peak = shear.peak
-    steepest, rate = steepest_dilatancy(shear.lid)
+    at_steepest, rate = steepest(shear.lid)
     return {
         "sigma_kPa": shear.sigma,
         "complete": shear.complete,
@@ -111,7 +111,7 @@ def _stress(results: Results, shear: Shear) -> dict[str, Any]:
         "lid_highest_mm": float(np.max(shear.lid.series(np.linspace(0, shear.lid.span, 401)))),
         "lid_end_mm": float(shear.lid.series(shear.lid.span)),
         "steepest_dilatancy_mm_per_mm": rate,
-        "displacement_at_steepest_mm": steepest,
+        "displacement_at_steepest_mm": at_steepest,
         "tau_ultimate_kPa": shear.ultimate[0],
         "tau_ultimate_error_kPa": shear.ultimate[1],
         **_on_plane(shear.plane),
