@@ -73,12 +73,14 @@ def test_the_logs_of_the_decks_tell_what_run_json_tells(folder: Path, tmp_path: 
         "speed_mm_s",
         "travel_mm",
         "model",
+        "seed",
         "complete",
     ):
         assert told[name] == run[name], name
     assert {name: float(told["parameters"][name]) for name in ("kn", "ks", "phi", "density")} == {
         name: float(run["parameters"][name]) for name in ("kn", "ks", "phi", "density")
     }
+    assert {name: told["parameters"][name] for name in ("sides", "wall_disc")} == {"sides": "smooth", "wall_disc": "1"}
     pages = [(place / "report.html").read_text(encoding="utf-8") for place in (tmp_path / "by_hand", folder / "seed_1")]
     assert pages[0].count("data:image/webp") == pages[1].count("data:image/webp") > 5
     assert ("no player" in pages[0]) == ("no player" in pages[1])

@@ -10,6 +10,7 @@ import synthetic
 from shearbox_tools import cli
 from shearbox_tools.by_hand import read_by_hand
 from shearbox_tools.errors import ShearboxError
+from shearbox_tools.grouping import put_together
 from shearbox_tools.readers import BED, read_shear
 from shearbox_tools.reporting import report_on
 
@@ -85,6 +86,36 @@ def test_tests_of_other_contacts_are_no_specimen_together(tmp_path):
     assert [(one["rolling"], one["cohesion"]) for one in told[:3]] == [("0", "0"), ("0", "5"), ("0.1", "0")]
     assert told[3]["phi_packing"] == "45" and "phi_packing" not in told[0]
     assert (told[4]["ks_wall"], told[4]["phi_wall"], told[5]["inertia"]) == ("20000000", "15", "10")
+
+
+PACK = """variable loose    index 1.8000000000000000444
+cdem/create 2 row 0.002 -0.002 0.098 -0.002 ${{nwidth}} ${{disc}}
+cdem/create 2 row 0.002 -0.002 0.098 -0.002 25 diameter {disc} density 26.5
+cdem/create {kind} row -0.002  0.048 -0.002  0 {count} diameter 0.004 density 26.5
+cdem/create 1 fill 350 region 0 0.1 0 {column} diameter 0.004 0.008 power -3               density 26.5 seed ${{seed}}
+cdem/create 1 fill 350 region 0 0.1 0 {column} diameter 0.004 0.008 power -3               density 26.5 seed {seed}
+write_restart packed.restart
+"""
+
+
+def test_boxes_with_other_walls_are_no_ensemble(tmp_path):
+    """Sides of 0.048 m in discs of 4 mm: 13 touch, 25 lie at half their diameter. A column of 0.18 m is 1.8 boxes high."""
+    usual = {"kind": 3, "count": 13, "disc": 0.004, "column": 0.18, "seed": 1}
+    others = [{}, {"seed": 2}, {"kind": 2}, {"kind": 2, "count": 25}, {"disc": 0.002}, {"column": 0.2}]
+    for number, other in enumerate(others):
+        place = write_test(tmp_path / str(number), 100, packing=number)
+        (place / "pack.log").write_text(PACK.format(**usual | other), encoding="utf-8")
+    runs, _ = read_by_hand([*sorted(tmp_path.iterdir()), write_test(tmp_path / "x", 100)], None, None)
+    assert [run.identity["seed"] for run in runs] == [1, 2, 1, 1, 1, 1, "unknown (2)"]
+    told = [[run.identity["parameters"].get(name) for name in ("sides", "wall_disc", "side_pitch")] for run in runs]
+    assert told[1:5] == [
+        ["smooth", "1", None], ["discs", "1", "1"], ["discs", "1", "0.5"], ["smooth", "0.5", None]
+    ]  # fmt: skip
+    assert [run.identity.get("model loose") for run in runs] == [None] * 5 + ["2", None]
+    ensembles, left_out = put_together(runs)
+    assert [ensemble.count for ensemble in ensembles] == [2, 1, 1, 1, 1, 1] and not left_out
+    unknown = "no pack.log tells the sides of the box, wall discs and the seed"
+    assert [any(unknown in note for note in run.notes) for run in runs] == [False] * 6 + [True]
 
 
 def test_stress_and_travel_are_as_told_to_six_digits_and_as_measured_to_three(tmp_path):

@@ -41,6 +41,11 @@ _COMMANDS = {
     "wall": rf"pair_coeff +1 2 {_CONTACT}",
     "inertia": rf"fix +motion +grains +cdem/integrate .* inertia {_NUMBER}",
     "law": r"pair_style +(?:cdem law|gran model) (direct|incremental)(?:_accumulation)?",
+    "seed": r"cdem/create +1 fill .* seed (\d+)",
+    "column": rf"cdem/create +1 fill \d+ region +{' +'.join([_NUMBER] * 4)} diameter {_NUMBER} .* seed \d+",
+    "floor": rf"cdem/create +2 row +{' +'.join([_NUMBER] * 4)} +\d+ +diameter {_NUMBER} .*",
+    "side": rf"cdem/create +([23]) row +{_NUMBER} +{_NUMBER} +\2 +(?!\3 ){_NUMBER} +(\d+) +diameter .*",  # upright
+    "loose": rf"variable +loose +index {_NUMBER}",
     "packed": r"read_restart +([^\s$]*packed[^\s$]*)",
 }
 
@@ -108,7 +113,7 @@ def _results(tests: Sequence[Test], number: int) -> Results:
         notes.append(f"no {PACKED_TABLE} tells of which packing it is" + ": taken for one" * (len(tests) > 1))
     return Results(
         folder=Path(os.path.commonpath([test.folder for test in tests])),
-        identity=first.identity | {"seed": f"{UNKNOWN} ({number + 1})"},
+        identity={"seed": f"{UNKNOWN} ({number + 1})"} | first.identity,
         model_file=first.model_file,
         stresses=[test.shear.sigma for test in tests],
         packing=first.packing,
@@ -122,13 +127,14 @@ def _results(tests: Sequence[Test], number: int) -> Results:
 def _read(folder: Path, model: str | None, speed: float | None) -> Test:
     data = read_shear(folder / SHEAR_TABLE)
     said = _commands(folder, SHEAR)
-    described = _model(folder, said, model)
+    packed = _packed_in(folder)
+    packing = _commands(packed, PACK)
+    described = _model(folder, said, packing, model)
     pace = speed if "lower" not in said else 1000 * float(said["lower"][0])
     if pace is None:
         raise InputError(f"{folder}: {_no_log(folder)} tells the speed of the lower half: give --speed, in mm/s")
     travel = 1000 * float(said["lower"][2]) if "lower" in said else float(data["displacement_mm"][-1])
     sigma = float(f"{float(said['lid'][0]) / 1000:.6g}" if "lid" in said else f"{np.mean(data['sigma_kPa']):.3g}")
-    packed = _packed_in(folder)
     bed = _row(folder / CONSOLIDATED_TABLE)
     identity = {
         "model": described.name,
@@ -136,7 +142,8 @@ def _read(folder: Path, model: str | None, speed: float | None) -> Test:
         SPEED: float(f"{pace:.6g}"),
         "travel_mm": float(f"{travel:.6g}"),
         "law": said.get("law", (UNKNOWN,))[0],
-        "parameters": _parameters(said, _commands(packed, PACK)),
+        "parameters": _parameters(said, packing) | _walls(packing),
+        **({"seed": int(packing["seed"][0])} if "seed" in packing else {}),
     }
     rows = full_speed(data)
     if rows.stop - rows.start < FEWEST_ROWS:
@@ -144,20 +151,25 @@ def _read(folder: Path, model: str | None, speed: float | None) -> Test:
     problems: list[str] = []
     frames = told_by_frames(folder, identity, problems)
     shear = analyse(sigma, folder, data, rows, _is_complete(data, travel), identity, bed or {}, *frames)
-    return Test(
-        folder, identity, described.path, shear, _row(packed / PACKED_TABLE), bed, problems, _sources(folder, said)
-    )
+    notes = _sources(folder, said, packing)
+    return Test(folder, identity, described.path, shear, _row(packed / PACKED_TABLE), bed, problems, notes)
 
 
-def _model(folder: Path, said: Said, model: str | None) -> Model:
-    """As its file says now; width as the test had it."""
+def _model(folder: Path, said: Said, packing: Said, model: str | None) -> Model:
+    """As its file says now; width as the test had it, and the loose column where the packing had not that of its file or deck."""
     if model is None and "model" not in said:
         raise InputError(f"{folder}: {_no_log(folder)} tells the model: give --model, a name or a file")
     try:
         described = find_model(model or str(folder / said["model"][0]))
     except InputError as error:
         raise InputError(f"{folder}: the model: {error}; --model tells a name or a file") from error
-    return replace(described, width=float(said["lid"][1])) if "lid" in said else described
+    if "lid" in said:
+        described = replace(described, width=float(said["lid"][1]))
+    if not {"column", "loose"} <= packing.keys():
+        return described
+    loose = _rounded(float(packing["column"][3]) / (2 * described.half_height))
+    usual = loose == _rounded(float(packing["loose"][0]))
+    return described if usual else replace(described, further=described.further | {"loose": loose})
 
 
 def _parameters(said: Said, packing: Said) -> dict[str, str]:
@@ -175,6 +187,21 @@ def _parameters(said: Said, packing: Said) -> dict[str, str]:
     return {"density": assumed["density"], **of_log}
 
 
+def _walls(packing: Said) -> dict[str, str]:
+    """The sides of the box and the wall discs, where the log of the packing tells them."""
+    if not {"floor", "side", "column"} <= packing.keys():
+        return {}
+    disc = float(packing["floor"][-1])
+    kind, _, first, last, count = packing["side"]
+    told = {"sides": "smooth" if kind == "3" else "discs", "wall_disc": _rounded(disc / float(packing["column"][-1]))}
+    pitch = abs(float(first) - float(last)) / (int(count) - 1)
+    return told if kind == "3" else told | {"side_pitch": _rounded(pitch / disc)}
+
+
+def _rounded(value: float) -> str:
+    return f"{value:.6g}"
+
+
 def _is_complete(data: Columns, travel: float) -> bool:
     """Whether the last row, a mean over its interval, is within two intervals of the end."""
     return bool(data["displacement_mm"][-1] >= travel * (1 - 2 / len(data["step"])))
@@ -190,16 +217,17 @@ def _row(path: Path) -> dict[str, float] | None:
     return read_row(path) if path.exists() else None
 
 
-def _sources(folder: Path, said: Said) -> list[str]:
-    """Where the numbers come from, and why there is no picture."""
+def _sources(folder: Path, said: Said, packing: Said) -> list[str]:
+    """Where the numbers come from, what is not known, and why there is no picture."""
     if said:
         log = _log(folder, SHEAR).name
         contacts = ", travel and contacts" if "contact" in said else " and travel"
         told = f"run by hand: model, σ, speed{contacts} are those of {log}; density is that of {PARAMETERS.name}"
     else:
         told = f"{_no_log(folder)} tells of the test: σ is the mean of its column, travel that of the last row"
+    unknown = [] if "side" in packing else [f"no {PACK}.log tells the sides of the box, wall discs and the seed"]
     missing = missing_frames(folder)
-    return [told] + [f"no {', '.join(missing)} and so no picture"] * bool(missing)
+    return [told, *unknown] + [f"no {', '.join(missing)} and so no picture"] * bool(missing)
 
 
 def _log(folder: Path, deck: str) -> Path:
