@@ -5,6 +5,7 @@ import errno
 import json
 import os
 import shutil
+from collections.abc import Sequence
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
@@ -19,6 +20,7 @@ from shearbox_tools.errors import ShearboxError
 from shearbox_tools.grouping import put_together, what_differs, what_is_set
 from shearbox_tools.mean_curve import average
 from shearbox_tools.models import PARAMETERS, find_model, read_variables
+from shearbox_tools.quasistatic import Inertia
 from shearbox_tools.reporting import report_on
 from shearbox_tools.request import OWN_OPTION, Request
 from shearbox_tools.results import Results, read_results
@@ -185,8 +187,37 @@ def test_shares_of_specimens(runs):
     ensemble = Ensemble(runs)
     assert ensemble.share("dilates") == (2, 3)
     assert ensemble.verdicts["dilates"].holds is None
+    why = "open at 100 kPa, 200 kPa, 300 kPa: the 95 % interval of the mean holds 0; more specimens would tell"
+    assert ensemble.verdicts["dilates"].reason == why
     assert ensemble.share("proportional") == (3, 3) and ensemble.verdicts["proportional"].holds
     assert Ensemble(runs[:2]).verdicts["dilates"].holds, "two equal rises leave no doubt"
+
+
+def all_with(runs: Sequence[Results], **changes) -> list[Results]:
+    return [replace(run, shears=[replace(shear, **changes) for shear in run.shears]) for run in runs]
+
+
+def test_what_no_specimen_tells_the_mean_does_not(runs):
+    """8 mm are 0.8 % of a box of a metre: too short for any peak, of one specimen or of several."""
+    for count in (1, 2):
+        ensemble = Ensemble(all_with(runs[:count], width=1000.0))
+        features = {name: v for name, v in ensemble.verdicts.items() if name != "quasi_static"}
+        assert [verdict.holds for verdict in features.values()] == [None] * 3
+        for verdict in (v for of in ensemble.verdicts_by_stress.values() for name, v in of.items() if name in features):
+            assert verdict.holds is None
+            assert verdict.reason.startswith("sheared by 0.8 % of the width (≥ 1 %); so far ")
+            assert verdict.reason.count("so far") == 1
+        assert features["proportional"].reason.startswith("not all peaks can be judged; so far ")
+        assert features["dilates"].reason == "cannot be judged at 100 kPa, 200 kPa, 300 kPa"
+
+
+def test_quasi_static_is_told_with_the_greatest_numbers(runs):
+    limits = [Inertia(2.9e-3, 0.1), Inertia(1e-4, 40.0), Inertia(1e-4, 0.2)]
+    fast = [one for run, inertia in zip(runs, limits) for one in all_with([run], inertia=inertia)]
+    verdict = Ensemble(fast).verdicts_by_stress[100]["quasi_static"]
+    assert verdict.holds is False
+    numbers = "inertial number 2.90e-3 (≤ 1e-3), τ of the halves differs by 40.0 % (≤ 5 %)"
+    assert verdict.reason == f"in 1 of 3 specimens; at most: {numbers}"
 
 
 def states(peak: Dilatant, end: Dilatant) -> Results:

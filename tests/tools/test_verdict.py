@@ -33,4 +33,14 @@ def test_a_doubt_leaves_the_numbers() -> None:
     "stresses, words", [([100.0], "at 100 kPa"), ([100.0, 200], "at both stresses"), ([1.0, 2, 3], "at all 3 stresses")]
 )
 def test_what_holds_everywhere_says_where(stresses: list[float], words: str) -> None:
-    assert of_all([(sigma, True) for sigma in stresses]) == Verdict(True, words)
+    assert of_all([(sigma, Verdict(True, "")) for sigma in stresses]) == Verdict(True, words)
+
+
+def test_what_is_open_says_why() -> None:
+    """That something cannot be judged, or that it is not decided."""
+    undecided = Verdict(None, "-0.1 to 0.2", "the interval holds 0")
+    judged = [(100.0, undecided), (200.0, Verdict(True, "")), (300.0, Verdict(None, "too short")), (400.0, undecided)]
+    words = "open at 100 kPa, 400 kPa: the interval holds 0; cannot be judged at 300 kPa"
+    assert of_all(judged) == Verdict(None, words)
+    assert of_all([*judged, (500.0, Verdict(False, ""))]) == Verdict(False, "not at 500 kPa")
+    assert undecided.in_doubt("too short").undecided == "", "then it cannot be judged"

@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 
 from .ensemble import EnsembleStrength, Estimate, as_angle, mean_of, strength_of_independent, strength_of_shared
-from .features import peak_at_steepest, proportional
+from .features import dilates, peak_at_steepest, proportional
 from .mean_curve import MeanCurve, average
+from .quasistatic import Inertia, greatest
 from .results import Results
-from .shear import Shear
+from .shear import Shear, doubt_of
 from .strength import fit_line
 from .stress_dilatancy import Dilatant
 from .verdict import Verdict, of_all, told_apart
@@ -164,28 +165,37 @@ class Ensemble:
     @cached_property
     def verdicts(self) -> dict[str, Verdict]:
         """The features of the mean curves and mean peaks, all stresses together."""
-        by_stress = {
-            name: [(sigma, v[name].holds) for sigma, v in self.verdicts_by_stress.items()] for name in FEATURES[1:]
-        }
+        by_stress = {name: [(sigma, v[name]) for sigma, v in self.verdicts_by_stress.items()] for name in FEATURES[1:]}
         return {"proportional": self._proportional()} | {name: of_all(judged) for name, judged in by_stress.items()}
+
+    @cached_property
+    def peak_doubts(self) -> dict[float, str | None]:
+        """By stress, why the peak of the mean curve cannot be taken for the strength, if so."""
+        return {
+            sigma: doubt_of(curve.peak, min(s.reached for s in self.shears[sigma]), self.shears[sigma][0].width)
+            for sigma, curve in self.curves.items()
+        }
 
     @cached_property
     def verdicts_by_stress(self) -> dict[float, dict[str, Verdict]]:
         """Those that can be judged at one stress."""
-        return {
-            sigma: {
-                "dilates": _dilates(self.shears[sigma]),
-                "peak_at_steepest_dilatancy": peak_at_steepest(curve.tau_fit, curve.peak, curve.lid_fit),
-                "quasi_static": of_all_specimens([s.verdicts["quasi_static"].holds for s in self.shears[sigma]]),
+        judged = {}
+        for sigma, curve in self.curves.items():
+            shears, doubt = self.shears[sigma], self.peak_doubts[sigma]
+            steepest = peak_at_steepest(curve.tau_fit, curve.peak, curve.lid_fit)
+            judged[sigma] = {
+                "dilates": _dilates(shears).in_doubt(doubt),
+                "peak_at_steepest_dilatancy": steepest.in_doubt(doubt),
+                "quasi_static": _quasi_static([shear.inertia for shear in shears]),
             }
-            for sigma, curve in self.curves.items()
-        }
+        return judged
 
     def _proportional(self) -> Verdict:
         """Of the means of the peaks, with the weights of the model: 1 / sigma^2."""
         sigma = np.array(list(self.shears) if self.independent else self.common)
         peaks = np.array([np.mean([shear.peak.value for shear in self.shears[s]]) for s in sigma])
-        return proportional(sigma, peaks, fit_line(sigma, peaks, sigma) if len(sigma) > 1 else None)
+        verdict = proportional(sigma, peaks, fit_line(sigma, peaks, sigma) if len(sigma) > 1 else None)
+        return verdict.in_doubt("not all peaks can be judged" if any(self.peak_doubts.values()) else None)
 
 
 def estimate(values: Sequence[float | None]) -> Estimate | None:
@@ -198,13 +208,15 @@ def holds_in(run: Results, feature: str) -> bool | None:
     """Whether a feature holds in a specimen, at all its stresses; None: cannot be judged."""
     if feature == "proportional":
         return run.proportional.holds
-    return of_all([(shear.sigma, shear.verdicts[feature].holds) for shear in run.shears]).holds
+    return of_all([(shear.sigma, shear.verdicts[feature]) for shear in run.shears]).holds
 
 
-def of_all_specimens(judged: Sequence[bool | None]) -> Verdict:
-    """What holds for an ensemble if it holds for each of its specimens."""
+def _quasi_static(specimens: Sequence[Inertia]) -> Verdict:
+    """It holds for an ensemble if it does for each of its specimens; told are their greatest numbers."""
+    judged = [one.quasi_static.holds for one in specimens]
     share = f"in {sum(holds is True for holds in judged)} of {len(judged)} specimens"
-    return Verdict(None if None in judged and False not in judged else all(judged), share)
+    holds = None if None in judged and False not in judged else all(judged)
+    return Verdict(holds, f"{share}; at most: {greatest(specimens).quasi_static.reason}")
 
 
 def _dilates(shears: Sequence[Shear]) -> Verdict:
@@ -214,9 +226,11 @@ def _dilates(shears: Sequence[Shear]) -> Verdict:
     """
     rise = estimate([float(shear.lid.series(shear.peak.position)) for shear in shears])
     if rise is None:
-        return shears[0].verdicts["dilates"]
+        return dilates(shears[0].lid, shears[0].peak)
     reason = (
         f"lid at the peak {rise.value:+.3f} mm, 95 % interval of the mean from {told_apart(float(rise.low), 0, 3, '+')} "
         f"to {rise.high:+.3f} mm (all of it > 0)"
     )
-    return Verdict(None if rise.low <= 0 < rise.high else bool(rise.low > 0), reason)
+    if rise.low <= 0 < rise.high:
+        return Verdict(None, reason, "the 95 % interval of the mean holds 0; more specimens would tell")
+    return Verdict(bool(rise.low > 0), reason)

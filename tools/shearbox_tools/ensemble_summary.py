@@ -13,6 +13,7 @@ from .ensemble_results import FEATURES, RELATIONS, Ensemble, estimate
 from .files import PAGE
 from .grouping import LeftOut, settings_of, what_differs, what_is_set
 from .peak import Peak
+from .quasistatic import greatest
 from .results import Results
 from .shear import Shear
 from .strength import COVERAGE, known_scatter
@@ -104,8 +105,7 @@ def _share(ensemble: Ensemble, feature: str) -> dict[str, int]:
 
 def _stress(ensemble: Ensemble, sigma: float) -> dict[str, Any]:
     shears, curve = ensemble.shears[sigma], ensemble.curves[sigma]
-    numbers = [s.inertia.number for s in shears if s.inertia.number is not None]
-    imbalances = [s.inertia.imbalance_percent for s in shears if s.inertia.imbalance_percent is not None]
+    inertia = greatest([shear.inertia for shear in shears])
     return {
         "sigma_kPa": sigma,
         "specimens": len(shears),
@@ -119,8 +119,8 @@ def _stress(ensemble: Ensemble, sigma: float) -> dict[str, Any]:
         "lid_end_mm": float(curve.lid.mean[-1]),
         "at_peak": _dilatancy(shears, lambda shear: shear.at_peak),
         "at_end": _dilatancy(shears, lambda shear: shear.at_end),
-        "inertial_number": max(numbers, default=None),
-        "imbalance_percent": max(imbalances, default=None),
+        "inertial_number": inertia.number,
+        "imbalance_percent": inertia.imbalance_percent,
         "criteria": {
             name: {
                 "holds": verdict.holds,

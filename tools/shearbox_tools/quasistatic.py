@@ -15,6 +15,7 @@ over the specimen's height if that is less.
 And the stress on the lower half equals that on the upper one unless grains are being accelerated.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,6 +47,13 @@ class Inertia:
             percent = told_apart(self.imbalance_percent, LARGEST_IMBALANCE_PERCENT, 1)
             numbers.append(f"τ of the halves differs by {percent} % (≤ {LARGEST_IMBALANCE_PERCENT} %)")
         return Verdict(all(judged) if judged else None, ", ".join(numbers) or "neither density nor both stresses known")
+
+
+def greatest(of: Sequence[Inertia]) -> Inertia:
+    """The greatest of each number, among those that are known."""
+    numbers = [one.number for one in of if one.number is not None]
+    imbalances = [p for one in of if (p := one.imbalance_percent) is not None and np.isfinite(p)]
+    return Inertia(max(numbers, default=None), max(imbalances, default=None))
 
 
 def inertial_number(speed: float, sigma: float, area: float, density: float, height: float) -> float:

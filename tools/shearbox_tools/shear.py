@@ -65,24 +65,14 @@ class Shear:
     @cached_property
     def doubt(self) -> str | None:
         """Why the peak cannot be taken for the strength, if so."""
-        return self._doubt_of(self.peak) if self.complete else f"sheared to {self.reached:.2f} mm only"
+        return (
+            doubt_of(self.peak, self.reached, self.width) if self.complete else f"sheared to {self.reached:.2f} mm only"
+        )
 
     @cached_property
     def plane_doubt(self) -> str | None:
         """Why that on the shear plane, where it is known, cannot, though that of the lower half can."""
-        return self._doubt_of(self.plane.peak) if self.plane and not self.doubt else None
-
-    def _doubt_of(self, peak: Peak) -> str | None:
-        percent = 100 * peak.value_error / max(peak.value, sys.float_info.min)
-        if percent > LARGEST_ERROR_PERCENT:
-            return f"τ = {peak.value:.0f} ± {peak.value_error:.0f} kPa is too uncertain (error ≤ {LARGEST_ERROR_PERCENT} %)"
-        travel = 100 * self.reached / self.width
-        rises = peak.at_boundary and not peak.falls
-        least = LEAST_TRAVEL_WITHOUT_PEAK_PERCENT if rises else LEAST_TRAVEL_PERCENT
-        if travel < least:
-            without = " without a peak" if rises else ""
-            return f"sheared by {told_apart(travel, least, 1)} % of the width{without} (≥ {least} %)"
-        return None
+        return doubt_of(self.plane.peak, self.reached, self.width) if self.plane and not self.doubt else None
 
     @cached_property
     def verdicts(self) -> dict[str, Verdict]:
@@ -160,6 +150,20 @@ class Shear:
             return None
         steps = np.diff(counts, prepend=0)
         return int(np.sum(np.where(steps < 0, counts, steps)))
+
+
+def doubt_of(peak: Peak, reached: float, width: float) -> str | None:
+    """Why a peak cannot be taken for the strength, if so, of a curve that goes as far (mm) in a box so wide (mm)."""
+    percent = 100 * peak.value_error / max(peak.value, sys.float_info.min)
+    if percent > LARGEST_ERROR_PERCENT:
+        return f"τ = {peak.value:.0f} ± {peak.value_error:.0f} kPa is too uncertain (error ≤ {LARGEST_ERROR_PERCENT} %)"
+    travel = 100 * reached / width
+    rises = peak.at_boundary and not peak.falls
+    least = LEAST_TRAVEL_WITHOUT_PEAK_PERCENT if rises else LEAST_TRAVEL_PERCENT
+    if travel < least:
+        without = " without a peak" if rises else ""
+        return f"sheared by {told_apart(travel, least, 1)} % of the width{without} (≥ {least} %)"
+    return None
 
 
 def _edge_remark(name: str, peak: Peak) -> list[str]:

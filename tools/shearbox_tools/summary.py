@@ -158,7 +158,7 @@ def _criteria(results: Results) -> dict[str, Any]:
     """What is judged of all stresses together, and what must hold for every stress."""
     criteria = {"proportional": _verdict(results.proportional)}
     for name in ("dilates", "peak_at_steepest_dilatancy", "quasi_static"):
-        criteria[name] = _verdict(of_all([(s.sigma, s.verdicts[name].holds) for s in results.shears]))
+        criteria[name] = _verdict(of_all([(s.sigma, s.verdicts[name]) for s in results.shears]))
     return criteria
 
 
