@@ -20,7 +20,8 @@ from paper_tools import findings
 from paper_tools.effects import CONFIRMED, CONTRADICTED, OPEN
 from paper_tools.findings import Finding, halves_agree, of_the_laws
 from paper_tools.record import read_record, write_record
-from paper_tools.specimens import CURVES, JUDGED, NUMBERS, PLACES, Group, Specimen
+from paper_tools.specimens import CURVES, JUDGED, NUMBERS, PLACES, STRENGTHS, Group, Specimen
+from paper_tools.specimens import specimen as measured
 from paper_tools.study import CAMPAIGNS, Part, campaign_file, parts_left, report, runs_of
 from shearbox_tools.cli import main
 from shearbox_tools.errors import ShearboxError
@@ -28,6 +29,7 @@ from shearbox_tools.grains import area_over_largest
 from shearbox_tools.models import find_model
 from shearbox_tools.phases import shearing
 from shearbox_tools.request import Request
+from shearbox_tools.results import read_results
 
 PAPER = TESTS.parents[1] / "tools" / "paper"
 PER_BOX = 5  # specimens
@@ -95,6 +97,34 @@ def test_a_difference_is_found_in_its_size() -> None:
     assert [effect.label[-5:] for effect in one.effects[2:6]] == ["box A", "box B", "box C", "box D"]
 
 
+def without(some: Group, seeds: Iterable[int], **unknown: float) -> Group:
+    """The same with numbers of some specimens unknown; without these specimens, if none are named."""
+    kept = [one for one in some.specimens if one.seed not in seeds or unknown]
+    return replace(some, specimens=[replace(one, **unknown) if one.seed in seeds else one for one in kept])
+
+
+@pytest.mark.filterwarnings("error")
+def test_what_cannot_be_judged_does_not_count() -> None:
+    """Findings on a strength are those of the specimens that have one; of the others the rest counts."""
+    every = models()
+    left_out = {name: range(2, 6) if name == "A_4-8" else range(1, 6) if name[0] in "BC" else [3] for name in every}
+    nowhere = {"phi_plane": np.nan, "c_plane": np.nan}
+    unknown = {name: without(some, left_out[name], **nowhere) for name, some in every.items()}
+    fewer = {name: without(some, left_out[name]) for name, some in every.items()}
+    fewer = {name: some for name, some in fewer.items() if some.specimens}
+    for whole, found, expected in zip(*map(findings.findings, (every, unknown, fewer))):
+        if "plane" not in found.claim:
+            assert found == whole
+            continue
+        effects = {effect.label: effect for effect in found.effects}
+        for effect in expected.effects:
+            assert vars(effects[effect.label]) == pytest.approx(vars(effect), nan_ok=True)
+    nothing = {name: without(some, range(9), **nowhere) for name, some in every.items()}
+    by_plane = [one for one in findings.findings(nothing) if "plane" in one.claim]
+    assert len(by_plane) == 3 and {one.verdict for one in by_plane} == {OPEN}
+    assert all(effect.count == 0 for one in by_plane for effect in one.effects)
+
+
 def test_without_specimens_all_is_open() -> None:
     assert set(verdicts(findings.findings({})).values()) == {OPEN}
 
@@ -118,6 +148,11 @@ def test_laws_are_compared_seed_by_seed() -> None:
     values = [effect.value for effect in found.effects]
     assert values == pytest.approx([0.01 * (PER_BOX - 1) / (PER_BOX + 1), 0, 0.01])
     assert found.verdict == CONFIRMED
+
+
+def test_laws_without_a_seed_in_common_are_not_compared() -> None:
+    direct, other = models()["A_4-8"], models()["A_4-8"]
+    assert of_the_laws({"A_4-8": without(direct, [1, 2, 3])}, {"A_4-8": without(other, [4, 5])}) == []
 
 
 def test_halves_of_the_same_agree() -> None:
@@ -188,6 +223,23 @@ def test_the_page_of_what_there_is(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert lines[0].startswith("sigma_kPa,specimens,displacement_mm,tau_mean_kPa") and len(lines) == 1 + 2 * len(PLACES)
 
 
+def test_the_strength_of_peaks_that_cannot_be_judged_is_not_known(tmp_path: Path) -> None:
+    """Of a box so wide that 8 mm are less than a hundredth of it; or on the plane alone, where its stress is noise."""
+    write_specimen(tmp_path, "TypeA_10x5_4-8_1-circle_350", 1)
+    results = read_results(tmp_path)
+    judged = measured(results)
+    assert np.isfinite([judged.phi, judged.c, judged.phi_plane, judged.c_plane]).all()
+    short = measured(replace(results, shears=[replace(shear, width=1000.0) for shear in results.shears]))
+    assert np.isnan([short.phi, short.c, short.phi_plane, short.c_plane]).all()
+    first, *others = results.shears
+    noise = synthetic.correlated_noise(np.random.default_rng(1), len(first.data["step"]), 40, 8)
+    uncertain = replace(first, data=first.data | {"plane_tau_kPa": first.data["plane_tau_kPa"] / 10 + noise})
+    assert uncertain.plane_doubt and not uncertain.doubt
+    by_lid = measured(replace(results, shears=[uncertain, *others]))
+    assert (by_lid.phi, by_lid.c) == (judged.phi, judged.c)
+    assert np.isnan([by_lid.phi_plane, by_lid.c_plane]).all()
+
+
 def known(campaign: str, entry: str, seeds: Iterable[int], value: float = 1.0) -> dict[str, dict[str, list[Specimen]]]:
     """Specimens with curves, in which every number is `value`."""
     test, curves = dict.fromkeys(NUMBERS, value), {100.0: np.full((len(CURVES), len(PLACES)), value)}
@@ -245,6 +297,30 @@ def test_new_specimens_join_those_kept(tmp_path: Path, monkeypatch: pytest.Monke
     assert float(row["tau_mean_kPa"]) == pytest.approx(np.mean(tau), rel=1e-3)
     assert float(row["tau_standard_error_kPa"]) == pytest.approx(np.std(tau, ddof=1) / 3**0.5, rel=1e-2)
     assert "smooth: 3 of 82 specimens" in (tmp_path / "page.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_page_of_specimens_of_which_little_is_known(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """No strength of a model and of a value of a sweep, of another that of one specimen alone; no peak; curves of one of two stresses;
+    laws without a seed in common."""
+    kept = known("smooth", "A_4-8", [1, 2]) | known("incremental", "A_4-8", [7]) | known("friction", "single_0", [1, 2])
+    kept["smooth"] |= known("smooth", "A_2-4", [1, 2])["smooth"]
+    for some in (kept["smooth"]["A_4-8"], kept["friction"]["single_0"]):
+        some[:] = [replace(one, **dict.fromkeys(STRENGTHS, np.nan)) for one in some]
+    first, other = kept["smooth"]["A_2-4"]
+    nowhere = dict.fromkeys(("peak", "peak_mm", "peak_plane", "plane_load", "mean_plane"), np.nan)
+    first = replace(first, phi=np.nan, tests=first.tests | {100.0: first.tests[100.0] | nowhere})
+    other = replace(other, tests=other.tests | {100.0: other.tests[100.0] | nowhere})
+    kept["smooth"]["A_2-4"] = [replace(one, curves={200.0: one.curves[200.0]}) for one in (first, other)]
+    monkeypatch.setattr("paper_tools.study.print_page", lambda page: None)
+    report(tmp_path, kept)
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "nan" not in page and "n = 1</span>" in page and "n = 0</span>" in page
+    figures = tmp_path / "figures"
+    assert {line.split(",")[0] for line in (figures / "fig07.csv").read_text().splitlines()[1:]} == {"200"}
+    with (figures / "friction.csv").open(encoding="utf-8") as stream:
+        (row,) = [row for row in csv.DictReader(stream) if row["value"] == "0"]
+    assert (row["specimens"], row["phi_specimens"], row["trm_specimens"]) == ("2", "0", "2")
 
 
 def test_what_is_damaged_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

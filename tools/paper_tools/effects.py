@@ -42,6 +42,8 @@ def unknown(label: str, count: int = 0) -> Effect:
 
 def mean(label: str, values: np.ndarray, angles: bool = False) -> Effect:
     """Over specimens (n,); of angles (degrees) that of their slopes, as in reports on ensembles."""
+    if not len(values):
+        return unknown(label)
     if angles:
         return _known(label, len(values), differences.mean_angle(np.tan(np.radians(values))))
     return _known(label, len(values), differences.mean(values))
@@ -49,6 +51,8 @@ def mean(label: str, values: np.ndarray, angles: bool = False) -> Effect:
 
 def difference(label: str, first: np.ndarray, second: np.ndarray) -> Effect:
     """Mean of the second less that of the first."""
+    if not (len(first) and len(second)):
+        return unknown(label, len(first) + len(second))
     means = differences.mean(first), differences.mean(second)
     return _known(label, len(first) + len(second), differences.difference(*means, paired=False))
 
@@ -60,7 +64,11 @@ def paired(label: str, first: np.ndarray, second: np.ndarray) -> Effect:
 
 
 def common_difference(label: str, pairs: Sequence[tuple[np.ndarray, np.ndarray]]) -> Effect:
-    """Of several pairs of groups, the difference that is the same in all: value = box + difference + scatter."""
+    """Of several pairs of groups, the difference that is the same in all: value = box + difference + scatter. Pairs of which one has no
+    specimens tell nothing."""
+    pairs = [(a, b) for a, b in pairs if len(a) and len(b)]
+    if not pairs:
+        return unknown(label)
     weights = np.array([1 / (1 / len(a) + 1 / len(b)) for a, b in pairs])
     values = np.array([np.mean(b) - np.mean(a) for a, b in pairs])
     groups = [group for pair in pairs for group in pair]

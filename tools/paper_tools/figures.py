@@ -79,6 +79,8 @@ def mean_curves(group: Group) -> list[MeanCurve]:
     curves = []
     for sigma in group.stresses:
         known = np.array([one.curves[sigma] for one in group.drawn if sigma in one.curves])
+        if not len(known):
+            continue
         whole = np.all(np.isfinite(known), axis=(0, 1))  # places that all have reached
         tau, lid = (band_of(known[:, CURVES.index(name), whole]) for name in ("tau_kPa", "lid_mm"))
         curves.append(MeanCurve(sigma, len(known), PLACES[whole], tau, lid))
@@ -139,7 +141,7 @@ def _points(group: Group, by: str) -> list[tuple[int, float, float, float]]:
         else:
             ratios = [(test["plane_load"], test["peak_plane"]) for test in tests]
             peaks = np.array([(sigma * load, sigma * load * peak) for load, peak in ratios])
-        known = peaks[np.isfinite(peaks[:, 0])]
+        known = peaks[np.all(np.isfinite(peaks), axis=1)]
         if count := len(known):
             error = np.std(known[:, 1], ddof=1) / np.sqrt(count) if count > 1 else np.nan
             load, tau = known.mean(axis=0)

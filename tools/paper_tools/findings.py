@@ -93,11 +93,9 @@ def _sharp(groups: Groups, kind: str) -> Finding:
 
 def _over(label: str, some: Iterable[Group], name: str) -> Effect:
     """Mean of the models' means, whose scatter is also that of models."""
-    groups = list(some)
-    if not groups:
-        return unknown(label)
-    whole = mean(label, np.array([float(np.mean(group.values(name))) for group in groups]))
-    return Effect(label, sum(len(group.specimens) for group in groups), whole.value, whole.low, whole.high)
+    values = [of_model for group in some if len(of_model := group.values(name))]
+    whole = mean(label, np.array([float(np.mean(of_model)) for of_model in values]))
+    return Effect(label, sum(map(len, values)), whole.value, whole.low, whole.high)
 
 
 def _falling(groups: Groups) -> Finding:
@@ -134,14 +132,10 @@ def _finer(groups: Groups, name: str, claim: str, source: str) -> Finding:
 def _larger(groups: Groups, name: str, by: str) -> Finding:
     effects = []
     for size in (COARSE, FINE, TRIPLE):
-        some = [(box, groups[f"{box}_{size}"]) for box in BOXES if f"{box}_{size}" in groups]
-        x = (
-            np.concatenate([np.full(len(g.specimens), np.log2(WIDTHS[box])) for box, g in some])
-            if some
-            else np.array([])
-        )
-        y = np.concatenate([g.values(name) for _, g in some]) if some else np.array([])
-        effects.append(slope(f"{size}, degrees for twice the width", x, y))
+        of_boxes = [(box, groups[f"{box}_{size}"].values(name)) for box in BOXES if f"{box}_{size}" in groups]
+        x = [np.log2(WIDTHS[box]) for box, values in of_boxes for _ in values]
+        y = [value for _, values in of_boxes for value in values]
+        effects.append(slope(f"{size}, degrees for twice the width", np.array(x), np.array(y)))
     rule = "slope over log₂ of the width below 0, of 4–8 mm (the wide distribution)"
     claim = f"With a wide distribution of sizes φ falls with the size of the box ({by})"
     return Finding(claim, "③ 2)", rule, effects, effects[0].verdict(-1))
@@ -172,11 +166,10 @@ def of_the_laws(direct: Groups, incremental: Groups) -> list[Finding]:
     packed with the law as well, so packings differ."""
     names, pairs = [], []
     for name in sorted(direct.keys() & incremental.keys()):
-        a, b = direct[name], incremental[name]
-        common = sorted({s.seed for s in a.specimens} & {s.seed for s in b.specimens})
-        values = [np.array([s.mean("roughness") for s in g.specimens if s.seed in common]) for g in (a, b)]
-        names.append(name)
-        pairs.append(values)
+        a, b = ({s.seed: s.mean("roughness") for s in of[name].specimens} for of in (direct, incremental))
+        if known := [seed for seed in sorted(a.keys() & b.keys()) if np.isfinite(a[seed] + b[seed])]:
+            names.append(name)
+            pairs.append([np.array([of[seed] for seed in known]) for of in (a, b)])
     if not pairs:
         return []
     every = [np.concatenate(values) for values in zip(*pairs)]

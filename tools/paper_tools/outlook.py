@@ -117,11 +117,11 @@ def _figure(sweep: Sweep, points: list[Point]) -> Figure:
     figure = Figure(figsize=(2.4 * len(sweep.panels), 2.9), layout="constrained")
     for axes, (name, label) in zip(figure.subplots(1, len(sweep.panels)), sweep.panels.items()):
         for look, family in zip(OTHER_LOOKS, sorted({point.family for point in points})):
-            some = [point for point in points if point.family == family]
-            effects = [point.effect(name) for point in some]
-            reach = [[e.value - e.low for e in effects], [e.high - e.value for e in effects]]
-            axes.errorbar([p.value for p in some], [e.value for e in effects], reach, fmt=look.mark, color=look.colour,
-                          ls=look.dashes, lw=1.2, ms=4, capsize=2, label=family)  # fmt: skip
+            every = [(point.value, point.effect(name)) for point in points if point.family == family]
+            some = [(value, effect) for value, effect in every if effect.count]
+            reach = [[e.value - e.low for _, e in some], [e.high - e.value for _, e in some]]
+            axes.errorbar([value for value, _ in some], [e.value for _, e in some], reach, fmt=look.mark,
+                          color=look.colour, ls=look.dashes, lw=1.2, ms=4, capsize=2, label=family)  # fmt: skip
         axes.set(xlabel=sweep.axis, ylabel=label)
         axes.xaxis.label.set_fontsize(7.5)
         if sweep.logarithmic:
@@ -132,14 +132,13 @@ def _figure(sweep: Sweep, points: list[Point]) -> Figure:
 
 
 def _csv(points: list[Point]) -> str:
-    """A line for each point: means over the specimens with their intervals."""
+    """A line for each point: means with their intervals, over so many specimens."""
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
-    table.writerow(
-        ["family", "value", "specimens", *(f"{name}{end}" for name in TABLE for end in ("", "_low", "_high"))]
-    )
+    columns = [f"{name}{end}" for name in TABLE for end in ("", "_low", "_high", "_specimens")]
+    table.writerow(["family", "value", "specimens", *columns])
     for point in points:
         effects = [point.effect(name) for name in TABLE]
-        cells = [f"{v:.6g}" for e in effects for v in (e.value, e.low, e.high)]
+        cells = [f"{v:.6g}" for e in effects for v in (e.value, e.low, e.high, e.count)]
         table.writerow([point.family, f"{point.value:g}", len(point.group.specimens), *cells])
     return text.getvalue()

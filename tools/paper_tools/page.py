@@ -34,11 +34,14 @@ def strengths(group: Group) -> dict[str, Effect]:
 
 
 def table_3(group: Group) -> list[dict[str, float]]:
-    """At the peak of each stress, in the mean over specimens: horizontal displacement (mm), normal and shear stress (kPa), and
-    the angle (degrees) of their ratio."""
+    """At the peak of each stress of which that is known, in the mean over specimens: horizontal displacement (mm), normal and shear
+    stress (kPa), and the angle (degrees) of their ratio."""
     rows = []
     for sigma in group.stresses:
-        ratio, place = (float(np.mean(group.at(sigma, name))) for name in ("peak", "peak_mm"))
+        ratios, places = (group.at(sigma, name) for name in ("peak", "peak_mm"))
+        if not (len(ratios) and len(places)):
+            continue
+        ratio, place = float(np.mean(ratios)), float(np.mean(places))
         rows.append({"sigma": sigma, "s": place, "tau": ratio * sigma, "angle": float(np.degrees(np.arctan(ratio)))})
     return rows
 

@@ -52,7 +52,8 @@ JUDGED = FEATURES[:3]  # what the paper says of every test
 
 @dataclass(frozen=True)
 class Specimen:
-    """One packing, sheared at several normal stresses (kPa); angles of its strength in degrees, cohesions in kPa.
+    """One packing, sheared at several normal stresses (kPa); angles of its strength in degrees, cohesions in kPa, nan where not all of
+    its peaks can be judged.
 
     `tests` are NUMBERS by stress, nan where one is not known, and `curves` those of CURVES (3, 79) at PLACES, where they are
     known. `holds`: each of JUDGED; None, that it cannot be judged. `hours` are those that it took, nan if unknown.
@@ -88,8 +89,9 @@ class Group:
     specimens: list[Specimen]
 
     def values(self, name: str) -> np.ndarray:
-        """(specimens,) of a number of NUMBERS, in the mean over the stresses, or of a strength."""
-        return np.array([specimen.mean(name) for specimen in self.specimens])
+        """(specimens,) of a number of NUMBERS, in the mean over the stresses, or of a strength; of those of which it is known."""
+        values = np.array([specimen.mean(name) for specimen in self.specimens])
+        return values[np.isfinite(values)]
 
     @property
     def stresses(self) -> list[float]:
@@ -121,23 +123,29 @@ def read_specimens(folder: Path) -> tuple[dict[str, list[Specimen]], list[LeftOu
 
 def specimen(results: Results) -> Specimen:
     """The numbers of a run that is complete."""
-    sigma = np.array([shear.sigma for shear in results.shears])
-    tau = np.array([shear.peak.value for shear in results.shears])
-    planes = [shear.plane for shear in results.shears if shear.plane]
-    sigma_plane, tau_plane = np.array([(plane.sigma_at_peak, plane.peak.value) for plane in planes]).T
-    (slope, c), (slope_plane, c_plane) = lines_of(sigma, tau), lines_of(sigma_plane, tau_plane)
-    phi, phi_plane = (float(np.degrees(np.arctan(s))) for s in (slope, slope_plane))
+    lid = [(shear.sigma, shear.peak.value) for shear in results.shears]
+    plane = [(shear.plane.sigma_at_peak, shear.plane.peak.value) for shear in results.shears if shear.plane]
+    phi, c = _strength(lid, not results.doubts)
+    phi_plane, c_plane = _strength(plane, not results.doubts and results.judges_plane)
     return Specimen(
         seed=int(results.identity["seed"]),
         tests={shear.sigma: numbers(shear, results.consolidations.get(shear.sigma, {})) for shear in results.shears},
         phi=phi,
-        c=float(c),
+        c=c,
         phi_plane=phi_plane,
-        c_plane=float(c_plane),
+        c_plane=c_plane,
         curves={shear.sigma: curves(shear) for shear in results.shears},
         holds={name: holds_in(results, name) for name in JUDGED},
         hours=sum(read_timings(results.folder).values()) / 3600,
     )
+
+
+def _strength(peaks: list[tuple[float, float]], judged: bool) -> tuple[float, float]:
+    """Angle (degrees) and cohesion (kPa) of a line through peaks (sigma, tau), where these are judged."""
+    if not judged:
+        return np.nan, np.nan
+    slope, c = lines_of(*np.array(peaks).T)
+    return float(np.degrees(np.arctan(slope))), float(c)
 
 
 def curves(shear: Shear) -> np.ndarray:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """HTML pages, each a single file that opens without a network."""
 
+import math
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -33,7 +34,9 @@ def environment(*folders: Path) -> Environment:
 
 def number(value: float | None, digits: int = 4) -> str:
     """A number as people write it; a dash for what is not known."""
-    return "–" if value is None else minus(f"{value:.{digits}g}".replace("e-0", "e-").replace("e+0", "e"))
+    if value is None or math.isnan(value):
+        return "–"
+    return minus(f"{value:.{digits}g}".replace("e-0", "e-").replace("e+0", "e"))
 
 
 def minus(text: str) -> str:
