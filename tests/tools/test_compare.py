@@ -13,7 +13,16 @@ from scipy import stats
 from test_ensemble_report import REQUEST, only, write_run
 
 from shearbox_tools.cli import main
-from shearbox_tools.comparison import ALONE, PAIRED, SOME_SHARED, WELCH, Comparison, Quantity, same_packings
+from shearbox_tools.comparison import (
+    ALONE,
+    PAIRED,
+    PAIRED_TESTS,
+    SOME_SHARED,
+    WELCH,
+    Comparison,
+    Quantity,
+    same_packings,
+)
 from shearbox_tools.ensemble_results import Ensemble
 from shearbox_tools.results import Results, read_results
 
@@ -169,6 +178,25 @@ def test_packings_of_their_own_for_each_stress(base):
     phi = found(Comparison(both), "phi_deg")
     errors = [np.degrees(fit.intercept_stderr / (1 + fit.intercept**2)) for fit, _ in lots]
     assert [mean.error for mean in phi.means] == pytest.approx(errors)
+
+
+def test_the_same_packings_of_their_own_for_each_stress_are_paired(base):
+    """Test by test, at a stress and over all; lines are compared as of independent packings, since a line is of many of them."""
+    one, other = (
+        [only(run, STRESSES[k % 3]) for k, run in enumerate(specimens(base, [1, 2, 3, 4, 5, 6], shift))]
+        for shift in (0.0, 0.1)
+    )
+    comparison = Comparison([Ensemble(one), Ensemble(other[::-1])])
+    assert comparison.methods == [None, PAIRED_TESTS]
+    for some, sigma in ((slice(None), None), (slice(1, None, 3), 200.0)):
+        told = found(comparison, "trm", sigma).differences[1]
+        wanted = stats.ttest_rel(trms(other)[some], trms(one)[some]).confidence_interval(1 - OUTSIDE)
+        assert (told.low, told.high) == pytest.approx((wanted.low, wanted.high))
+    apart = Comparison([Ensemble(one), Ensemble([replace(run, packing=None) for run in other])])
+    told, welch = (found(of, "phi_deg").differences[1] for of in (comparison, apart))
+    assert apart.methods == [None, WELCH] and (told.low, told.high) == pytest.approx((welch.low, welch.high))
+    elsewhere = [only(run, STRESSES[(k + 1) % 3]) for k, run in enumerate(specimens(base, [1, 2, 3, 4, 5, 6], 0.1))]
+    assert Comparison([Ensemble(one), Ensemble(elsewhere)]).methods == [None, SOME_SHARED]
 
 
 @pytest.fixture(name="folder", scope="module")

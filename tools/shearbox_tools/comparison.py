@@ -15,6 +15,9 @@ from .results import Results
 from .shear import Shear
 
 PAIRED = "paired by packing"
+PAIRED_TESTS = (
+    "paired by packing, but for φ and c (Welch)"  # each test has a packing of its own, and a line many of them
+)
 WELCH = "Welch"
 SOME_SHARED = "Welch, though some packings are the same"
 ALONE = "one specimen, so no interval"
@@ -107,7 +110,7 @@ class Comparison:
     ) -> Quantity:
         first = means[0]
         differences = [
-            difference(first, other, method == PAIRED) if first and other and method else None
+            difference(first, other, method in (PAIRED, PAIRED_TESTS)) if first and other and method else None
             for other, method in zip(means, self.methods)
         ]
         return Quantity(name, title, unit, digits, sigma, means, differences)
@@ -117,19 +120,21 @@ def _method(first: Ensemble, other: Ensemble) -> str:
     if min(first.count, other.count) < 2:
         return ALONE
     if same_packings(first, other):
-        return PAIRED
+        return PAIRED_TESTS if first.independent else PAIRED
     return SOME_SHARED if _shared_seeds(first, other) else WELCH
 
 
 def same_packings(one: Ensemble, other: Ensemble) -> bool:
-    """Whether both have the same specimens before consolidation, so that they differ in how these were sheared."""
-    return len(_shared_seeds(one, other)) == one.count == other.count
+    """Whether both have the same specimens before consolidation, for the same stresses, so that they differ in how these were
+    sheared."""
+    stresses, others = (
+        {run.identity["seed"]: [s.sigma for s in run.shears] for run in e.specimens} for e in (one, other)
+    )
+    return stresses == others and len(_shared_seeds(one, other)) == one.count
 
 
 def _shared_seeds(one: Ensemble, other: Ensemble) -> set[int]:
     """Of packings that are in both: equal seeds, and equal tables, whose digits no other model, setting or version has."""
-    if one.independent or other.independent:
-        return set()
     packings, others = ({run.identity["seed"]: run.packing for run in e.specimens} for e in (one, other))
     return {seed for seed, packing in packings.items() if packing and packing == others.get(seed)}
 
