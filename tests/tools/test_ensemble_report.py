@@ -220,6 +220,24 @@ def test_quasi_static_is_told_with_the_greatest_numbers(runs):
     assert verdict.reason == f"in 1 of 3 specimens; at most: {numbers}"
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
+    "factor, doubt",
+    [(0.0, "100 kPa: τ at its peak is 0 kPa: a strength is above 0"), (-1.0, "100 kPa: τ at its peak is -")],
+)
+def test_a_test_that_nothing_resists_is_reported_on(tmp_path, factor, doubt):
+    """As of a half that moves without grains on it, or is pushed along: there is no strength, and the report says why."""
+    for seed in (1, 2):
+        folder = write_run(tmp_path / f"seed_{seed}", replace(REQUEST, seed=seed), factor)
+    report_on(tmp_path)
+    alone = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    (both,) = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))["ensembles"]
+    assert alone["phi_deg"] is None and alone["doubts"][0].startswith(doubt)
+    assert both["phi_deg"] is None and doubt in both["doubts"][0]
+    for summary in (alone, both):
+        assert [c["holds"] for name, c in summary["criteria"].items() if name != "quasi_static"] == [None] * 3
+
+
 def states(peak: Dilatant, end: Dilatant) -> Results:
     return SimpleNamespace(shears=[SimpleNamespace(sigma=100.0, at_peak=peak, at_end=end)])  # type: ignore[return-value]
 

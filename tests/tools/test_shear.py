@@ -148,6 +148,13 @@ def test_dilatancy_of_a_straight_lid() -> None:
     assert shear.at_end.ratio == pytest.approx(np.mean(shear.data["tau_kPa"][640:]) / 200)
 
 
+def test_a_stress_that_never_changes_is_no_strength() -> None:
+    """There is nothing to tell its error by."""
+    data = curves(200, 8)
+    shear = sheared(data | {"tau_kPa": np.full(len(data["step"]), 50.0)})
+    assert shear.doubt == "τ = 50 kPa without any scatter: how uncertain it is cannot be told"
+
+
 def test_an_edge_on_the_shear_plane_is_told() -> None:
     """Though the lower half has its peak within the travel."""
     data = curves(200, 8)

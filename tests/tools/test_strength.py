@@ -21,6 +21,14 @@ def test_exact_line():
     assert line.r_squared == pytest.approx(1)
 
 
+@pytest.mark.filterwarnings("error")
+def test_peaks_without_errors_have_a_line():
+    """Of stresses that are all the same there is nothing that a line could explain."""
+    line = fit_line(SIGMA, 12 + SIGMA / 2, np.zeros(4))
+    assert (line.c_kPa, line.slope) == pytest.approx((12, 0.5))
+    assert np.isnan(fit_line(SIGMA, np.zeros(4), np.zeros(4)).r_squared)
+
+
 def test_half_widths_of_equal_weights_are_the_textbook_ones():
     tau = np.array([58.0, 104, 166, 209])
     line = fit_line(SIGMA, tau, np.ones(4))

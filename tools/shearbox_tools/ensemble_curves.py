@@ -46,7 +46,8 @@ def limits_of(bands: Sequence[tuple[Band, float]], include: float) -> Limits:
         for edge in (band.mean - np.nan_to_num(band.deviation), band.mean + np.nan_to_num(band.deviation))
     ]
     low, high = min(include, *(end.min() for end in ends)), max(include, *(end.max() for end in ends))
-    return low - MARGIN * (high - low), high + MARGIN * (high - low)
+    margin = MARGIN * (high - low) or 1.0  # curves may be zero all along
+    return low - margin, high + margin
 
 
 def _curve(curve: MeanCurve, band: Band, over: float, name: str, look: Look, limits: Limits) -> Figure:

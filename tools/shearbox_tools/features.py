@@ -46,6 +46,8 @@ def dilates(lid: Fit, peak: Peak) -> Verdict:
 
 def peak_at_steepest(tau: Fit, peak: Peak, lid: Fit) -> Verdict:
     """Feature 3: where the lid rises fastest, tau is at least 90 % of its peak."""
+    if peak.value <= 0:
+        return Verdict(None, f"τ at its peak is {told_apart(peak.value, 0, 0)} kPa: there is no share of it")
     position, rate = steepest(lid)
     percent = 100 * float(tau.series(position)) / peak.value
     reason = (

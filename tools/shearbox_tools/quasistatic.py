@@ -63,5 +63,6 @@ def inertial_number(speed: float, sigma: float, area: float, density: float, hei
 
 
 def imbalance_percent(lower: np.ndarray, upper: np.ndarray) -> float:
-    """Root mean square of the difference of the halves' shear stresses, in percent of that of their mean."""
-    return float(100 * np.sqrt(np.mean((lower - upper) ** 2) / np.mean(((lower + upper) / 2) ** 2)))
+    """Root mean square of the difference of the halves' shear stresses, in percent of that of their mean; nan if that is 0."""
+    square = np.mean(((lower + upper) / 2) ** 2)
+    return float(100 * np.sqrt(np.mean((lower - upper) ** 2) / square)) if square else np.nan

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The shear phase at one stress, analysed."""
 
-import sys
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -21,6 +20,7 @@ from .verdict import Verdict, told_apart
 
 # limits beyond which a peak is not taken for the strength, this project's choice
 LARGEST_ERROR_PERCENT = 25
+LEAST_ERROR_PERCENT = 1e-7  # less is round-off, as of a stress that is the same in all rows
 LEAST_TRAVEL_PERCENT = 1  # of the width
 LEAST_TRAVEL_WITHOUT_PEAK_PERCENT = 5
 LARGEST_TILT = 0.5  # of the normal stress; in tests of boxes up to 15 cm it is 0.03 to 0.14 (rms), 0.44 at most
@@ -154,7 +154,11 @@ class Shear:
 
 def doubt_of(peak: Peak, reached: float, width: float) -> str | None:
     """Why a peak cannot be taken for the strength, if so, of a curve that goes as far (mm) in a box so wide (mm)."""
-    percent = 100 * peak.value_error / max(peak.value, sys.float_info.min)
+    if peak.value <= 0:
+        return f"τ at its peak is {told_apart(peak.value, 0, 0)} kPa: a strength is above 0"
+    percent = 100 * peak.value_error / peak.value
+    if percent < LEAST_ERROR_PERCENT:
+        return f"τ = {peak.value:.0f} kPa without any scatter: how uncertain it is cannot be told"
     if percent > LARGEST_ERROR_PERCENT:
         return f"τ = {peak.value:.0f} ± {peak.value_error:.0f} kPa is too uncertain (error ≤ {LARGEST_ERROR_PERCENT} %)"
     travel = 100 * reached / width

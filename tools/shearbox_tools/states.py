@@ -135,7 +135,7 @@ def _draw_rowe(axes: Axes, results: Results, rates: np.ndarray) -> None:
 def _equal_scales(axes: Axes) -> None:
     """So that the angle of a line is that of the sand; from 0 on, and below where the data are."""
     data = axes.dataLim
-    top = BEYOND * data.y1
+    top = BEYOND * max(0, data.y1) or 1.0  # kPa
     axes.set_xlim(min(0, data.x0), max(BEYOND * data.x1, LEAST_WIDTH * top))
     axes.set_ylim(min(0, data.y0), top)
     axes.set_aspect("equal")

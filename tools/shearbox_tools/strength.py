@@ -11,6 +11,7 @@ from scipy.special import ndtri, stdtrit
 from .models import is_of_the_decks
 
 COVERAGE = 0.95
+LEAST_ERROR = 1e-9
 # of examples/paper/measured/specimens.csv: packings, least and greatest φ and its standard deviation, °
 _SCATTER = {
     "TypeA_10x5_4-8_1-circle_350": (8, 30, 44, 4.8),
@@ -70,8 +71,10 @@ def fit_line(sigma: np.ndarray, tau: np.ndarray, tau_error: np.ndarray) -> Line:
     than its peak's error, and that shows as chi^2 / (n - 2) > 1: the covariance is multiplied by
     max(1, chi^2 / (n - 2)), never shrunk (Birge ratio), and the half-widths are Student's t with n - 2 degrees of
     freedom times the standard errors. Two points leave no degree of freedom: then the propagated errors times 1.96.
-    The error of phi is that of the slope times d(atan s)/ds = 1 / (1 + s^2).
+    The error of phi is that of the slope times d(atan s)/ds = 1 / (1 + s^2). Errors of less than LEAST_ERROR sigma, as of a stress that
+    is always the same, count as that: nothing has an infinite weight.
     """
+    tau_error = np.maximum(tau_error, LEAST_ERROR * sigma)
     design = np.column_stack([np.ones_like(sigma), sigma])
     weights = 1 / tau_error**2
     covariance = np.linalg.inv(design.T @ (weights[:, None] * design))
@@ -93,7 +96,7 @@ def fit_line(sigma: np.ndarray, tau: np.ndarray, tau_error: np.ndarray) -> Line:
         slope=float(slope),
         covariance=covariance,
         quantile=quantile,
-        r_squared=float(1 - np.sum(weights * residuals**2) / total),
+        r_squared=float(1 - np.sum(weights * residuals**2) / total) if total else np.nan,
         chi2_reduced=chi2_reduced,
         phi_through_origin_deg=float(np.degrees(np.arctan(through_origin))),
     )
