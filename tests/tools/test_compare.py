@@ -2,7 +2,9 @@
 """`shearbox compare`: intervals of differences against SciPy's tests, which packings are paired, what is left out."""
 
 import csv
+import html
 import json
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -235,6 +237,44 @@ def test_a_folder_of_two_ensembles(folder, tmp_path, capsys):
     page = (out / "compare.html").read_text(encoding="utf-8")
     assert "Paired by packing" in page and "Welch" not in page and 'src="http' not in page
     assert not list(folder.glob("**/report.html")), "the runs are only read"
+
+
+def test_what_reports_say_with_care_is_said_here(folder, tmp_path, capsys):
+    """Two notes of either, that there are no pictures; of many, how many they are, and where if there is a report."""
+    for run in ("A/seed_1", "A/seed_2"):
+        shutil.copytree(folder / run, tmp_path / run)
+    for seed in (1, 2, 3):
+        write_run(tmp_path / "B" / f"seed_{seed}", replace(REQUEST, seed=seed, speed=10.0), factor=0.0)
+    words = ["compare", str(tmp_path / "A"), str(tmp_path / "B"), "--out", str(tmp_path / "out dir")]
+    assert main(words) == 0
+    few, many = json.loads((tmp_path / "out dir" / "compare.json").read_text(encoding="utf-8"))["ensembles"]
+    for ensemble, name in ((few, "A"), (many, "B")):
+        assert main(["report", str(tmp_path / name)]) == 0
+        (own,) = json.loads((tmp_path / name / "summary.json").read_text(encoding="utf-8"))["ensembles"]
+        assert ensemble["notes"] == own["notes"] and ensemble["report"] is None
+    page = (tmp_path / "out dir" / "compare.html").read_text(encoding="utf-8")
+    assert few["notes"][0].startswith("seed_1: 100 kPa: no grains.dump") and few["notes"][0] in html.unescape(page)
+    count = len(many["notes"])
+    assert count > 4 and f"{count} notes, which <code>shearbox report</code> tells" in page
+    assert main(words) == 0
+    page = (tmp_path / "out dir" / "compare.html").read_text(encoding="utf-8")
+    assert f'<a href="../B/report.html">{count} notes in the report</a>' in page
+
+
+def test_single_runs_of_one_stress_say_why_they_have_no_line(folder, tmp_path, capsys):
+    """Of several they have one, without an interval."""
+    runs = [str(folder / name / "seed_1") for name in "AB"]
+    assert main(["compare", *runs, "--out", str(tmp_path)]) == 0
+    told = "stresses that all specimens have: 1; at least 2 are needed"
+    assert capsys.readouterr().out.count(told) == 2
+    page = (tmp_path / "compare.html").read_text(encoding="utf-8")
+    assert all(f"<li>φ and c of {name}: {told}</li>" in page for name in "AB")
+    for name, speed in (("A", 2.0), ("B", 10.0)):
+        write_run(tmp_path / name, replace(REQUEST, speed=speed))
+    assert main(["compare", str(tmp_path / "A"), str(tmp_path / "B"), "--out", str(tmp_path)]) == 0
+    assert "no φ and c" not in capsys.readouterr().out
+    quantity = json.loads((tmp_path / "compare.json").read_text(encoding="utf-8"))["quantities"][0]
+    assert quantity["quantity"] == "phi_deg" and [mean["low"] for mean in quantity["means"]] == [None, None]
 
 
 def test_what_cannot_be_compared(folder, tmp_path, capsys):

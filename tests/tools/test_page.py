@@ -77,7 +77,7 @@ def _comparison(tmp_path_factory: pytest.TempPathFactory) -> Path:
     base = read_results(write_run(folder / "run", replace(REQUEST, stresses=STRESSES[:2])))
     every = [specimens(base, [1, 2, 3]), specimens(base, [1, 2, 3], 0.1), specimens(base, [4], 0.2)]
     members = [Member(folder / name, Ensemble(runs)) for name, runs in zip(("dense", "fast", "loose"), every)]
-    return write_comparison(members, [LeftOut(folder / "stopped", "sheared to 4.00 mm only")], folder)
+    return write_comparison(members, [LeftOut(folder / "stopped", "sheared to 4.00 mm only")], folder)[0]
 
 
 def chromium(folder: Path, *arguments: str) -> str:

@@ -3,6 +3,7 @@
 
 import csv
 import io
+import os
 import string
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -16,7 +17,7 @@ from .comparison_curves import draw_comparison
 from .differences import Difference, Mean
 from .ensemble_results import Ensemble
 from .errors import InputError, ShearboxError
-from .files import write_json, write_text
+from .files import PAGE, write_json, write_text
 from .grouping import LeftOut, put_together, settings_of, what_differs
 from .page import render
 from .reading import read_all, read_quietly
@@ -60,18 +61,13 @@ def compare(folders: Sequence[Path], out: Path) -> tuple[Path, list[str]]:
         raise ShearboxError(
             "\n".join([f"2 to {len(ALL_LOOKS)} ensembles are compared, there are {len(members)}", *there, *reasons])
         )
-    doubts = [
-        f"{name} ({member.folder}): {doubt}"
-        for name, member in zip(string.ascii_uppercase, members)
-        for doubt in member.ensemble.doubts
-    ]
-    return write_comparison(members, left_out, out), doubts
+    return write_comparison(members, left_out, out)
 
 
-def write_comparison(members: Sequence[Member], left_out: Sequence[LeftOut], out: Path) -> Path:
+def write_comparison(members: Sequence[Member], left_out: Sequence[LeftOut], out: Path) -> tuple[Path, list[str]]:
     """The same of what has been read."""
     comparison = Comparison([member.ensemble for member in members])
-    summary = plain(_summary(members, comparison, left_out))
+    summary = plain(_summary(members, comparison, left_out, out))
     _make_folder(out)
     write_json(out / f"{NAME}.json", summary)
     write_text(out / f"{NAME}.csv", _table(summary))
@@ -80,7 +76,7 @@ def write_comparison(members: Sequence[Member], left_out: Sequence[LeftOut], out
     write_text(
         page, render(TEMPLATE, summary=summary, looks=ALL_LOOKS, pictures=draw_comparison(names, comparison.every))
     )
-    return page
+    return page, [f"{e['name']} ({e['folder']}): {doubt}" for e in summary["ensembles"] for doubt in e["doubts"]]
 
 
 def _read(folder: Path) -> tuple[list[Ensemble], list[LeftOut]]:
@@ -104,9 +100,12 @@ def _make_folder(out: Path) -> None:
         raise InputError(f"--out {out}: {error.strerror}") from error
 
 
-def _summary(members: Sequence[Member], comparison: Comparison, left_out: Sequence[LeftOut]) -> dict[str, Any]:
-    """compare.json; units are in the names, null is what is not known."""
+def _summary(
+    members: Sequence[Member], comparison: Comparison, left_out: Sequence[LeftOut], out: Path
+) -> dict[str, Any]:
+    """compare.json, in the folder `out`; units are in the names, null is what is not known."""
     differs = what_differs(comparison.every)
+    there = zip(string.ascii_uppercase, members, differs, comparison.methods, comparison.ensembles)
     return {
         "stresses_kPa": comparison.stresses,
         "not_compared": sorted({s for e in comparison.every for s in e.shears} - set(comparison.stresses)),
@@ -121,11 +120,13 @@ def _summary(members: Sequence[Member], comparison: Comparison, left_out: Sequen
                 "seeds": [run.identity["seed"] for run in member.ensemble.specimens],
                 "packings": member.ensemble.model,
                 "method": method,
-                "doubts": [f"{run.folder}: {doubt}" for run in member.ensemble.specimens for doubt in run.doubts],
+                "doubts": compared.line_doubts,
+                "notes": member.ensemble.notes,
+                "report": os.path.relpath(page, out) if (page := member.folder / PAGE).exists() else None,
                 **_totals(member.ensemble),
                 "settings": settings_of(member.ensemble.identity),
             }
-            for name, member, difference, method in zip(string.ascii_uppercase, members, differs, comparison.methods)
+            for name, member, difference, method, compared in there
         ],
         "quantities": [_quantity(quantity) for quantity in comparison.quantities],
         "left_out": [{"folder": str(one.folder), "reason": one.reason} for one in left_out],

@@ -153,15 +153,12 @@ def _in_order(specimens: Sequence[Results], stresses: Sequence[float]) -> list[R
 
 def _strength(ensemble: Ensemble, by: str) -> tuple[Mean | None, Mean | None]:
     """phi and c; also of one specimen, whose line is made as those of an ensemble are."""
-    doubts = any(run.doubts for run in ensemble.specimens)
-    if doubts or len(ensemble.shears) < 2 or (by == "plane" and not ensemble.judges_plane):
+    if ensemble.line_doubts or (by == "plane" and not ensemble.judges_plane):
         return None, None
     sigma, tau = ensemble.peaks(by)
     if not ensemble.independent:
         slopes, cohesions = lines_of(sigma, tau)
         return mean_angle(slopes), mean(cohesions)
-    if len(sigma) < 3:
-        return None, None
     return mean_strength(strength_of_independent(sigma, tau), len(sigma) - 2)
 
 

@@ -83,16 +83,26 @@ class Ensemble:
         return INDEPENDENT if self.independent else SHARED
 
     @property
-    def doubts(self) -> list[str]:
-        """Why there is no strength of the ensemble, if so."""
+    def notes(self) -> list[str]:
+        """What a reader must know, of several specimens with the names of their folders."""
+        if self.count == 1:
+            return self.specimens[0].notes
+        return [f"{run.folder.name}: {note}" for run in self.specimens for note in run.notes]
+
+    @property
+    def line_doubts(self) -> list[str]:
+        """Why there is no line through its peaks, if so."""
         doubts = [f"{run.folder}: {doubt}" for run in self.specimens for doubt in run.doubts]
         if self.independent and self.count < 3:
             doubts.append(f"{self.count} peaks: at least 3 are needed")
-        elif not self.independent and self.count < 2:
-            doubts.append("one specimen: how others differ is not in it")
         if not self.independent and len(self.common) < 2:
             doubts.append(f"stresses that all specimens have: {len(self.common)}; at least 2 are needed")
         return doubts
+
+    @property
+    def doubts(self) -> list[str]:
+        """Why there is no strength of the ensemble, if so."""
+        return self.line_doubts + ["one specimen: how others differ is not in it"] * (self.count < 2)
 
     @cached_property
     def strength(self) -> EnsembleStrength | None:

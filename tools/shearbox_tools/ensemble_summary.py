@@ -60,14 +60,8 @@ def _ensemble(folder: Path, ensemble: Ensemble) -> dict[str, Any]:
         },
         "stresses": [_stress(ensemble, sigma) for sigma in ensemble.shears],
         "settings": settings_of(ensemble.identity),
-        "notes": [note for run in ensemble.specimens for note in run.notes]
-        if ensemble.count == 1
-        else _notes(ensemble),
+        "notes": ensemble.notes,
     }
-
-
-def _notes(ensemble: Ensemble) -> list[str]:
-    return [f"{run.folder.name}: {note}" for run in ensemble.specimens for note in run.notes]
 
 
 def _strength(strength: EnsembleStrength | None, which: str) -> dict[str, Any]:
