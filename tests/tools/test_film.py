@@ -75,6 +75,22 @@ def test_the_mark_is_where_the_lower_half_is(frames):
             assert middle == pytest.approx(880 * (left + width * number / 3 * TRAVEL / end), abs=1.5)
 
 
+def test_the_last_mark_is_of_the_last_row_at_full_speed(run):
+    """Rows after the stop have the displacement of the end, and spikes."""
+    before = synthetic.curves(100, TRAVEL)
+    curves = {name: np.append(column, [column[-1], column[-1]]) for name, column in before.items()}
+    curves["step"][-2:] += synthetic.STEPS_PER_ROW * np.array([1, 2])
+    curves["displacement_mm"][-2:] = TRAVEL
+    curves["tau_kPa"][-2:], curves["lid_mm"][-2:] = -200.0, 7.0
+    film = Film(run / "100", curves["step"], curves["displacement_mm"])
+    picture = scene.Scene("", curves, film.first(), [film.last()], make_paint("rotation", film.first(), 1))
+    picture.show(film.last())
+    marks = [line for axes in picture.figure.axes for line in axes.lines if line.get_color() == scene.MARK_COLOUR]
+    places = [(float(mark.get_xdata()[0]), float(mark.get_ydata()[0])) for mark in marks]
+    wanted = [(TRAVEL, before[name][-1]) for name in scene.CURVES]
+    assert np.allclose(places, wanted)
+
+
 def test_circles_are_to_scale(run):
     curves = synthetic.curves(100, TRAVEL)
     film = Film(run / "100", curves["step"], curves["displacement_mm"])

@@ -40,7 +40,9 @@ class Scene:
         """curves: the table of the shear phase; first: the specimen before shear; samples: some moments of the film, of
         which the scales are; paint: None for chains of force."""
         self.figure = Figure(figsize=SIZE)
-        self._curves, self._first, self._paint = curves, first, paint
+        stop = full_speed(curves).stop or None  # afterwards displacements are all the same, and the stress has a spike
+        self._curves = {name: column[:stop] for name, column in curves.items()}
+        self._first, self._paint = first, paint
         self._extent = extent([*samples])
         self._widest = max(float(np.max(moment.contacts["fn"], initial=1e-9)) for moment in samples)
         self.specimen = self.figure.add_axes(SPECIMEN)
