@@ -109,6 +109,16 @@ def test_grains_that_do_not_fill_the_box_are_refused(setting, message):
     assert message in str(error.value)
 
 
+def test_of_too_many_grains_in_a_name_their_number_is_told_and_nothing_that_follows_from_it():
+    """The height of the column that they would be packed in is no variable that the user has written."""
+    with pytest.raises(InputError) as error:
+        check(Request(find_model("TypeA_10x5_4-8_1-circle_35000"), (100.0,)))
+    assert str(error.value).startswith(
+        "model TypeA_10x5_4-8_1-circle_35000: ngrains 35000: about 212 to 424 are expected; 35000 of these grains"
+    )
+    assert "loose" not in str(error.value)
+
+
 @pytest.mark.parametrize(
     "line, message",
     [

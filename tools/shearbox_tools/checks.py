@@ -2,6 +2,7 @@
 """Whether a request can be carried out as it was given, before anything starts."""
 
 import math
+from collections.abc import Mapping
 
 from .errors import InputError
 from .hosts import HOSTS
@@ -57,23 +58,37 @@ def _host_problems(request: Request) -> list[str]:
 
 
 def _model_problems(model: Model) -> list[str]:
-    """Variables that are out of their range, or without effect; and a number of grains that does not fill the box."""
+    """Variables that are out of their range, or without effect; and a number of grains that does not fill the box. What a model
+    has beside its name was made of these numbers: if they are wrong, nothing more is told of it."""
+    numbers = {name: value for name, value in model.variables.items() if name not in model.further}
+    problems = _variable_problems(numbers) or _size_problems(model)
+    if not (problems and model.text):
+        problems += _variable_problems(model.further)
+    where = f"model {model.name}" if model.text else model.path
+    return [f"{where}: {problem}" for problem in problems]
+
+
+def _variable_problems(variables: Mapping[str, float | str]) -> list[str]:
     known = {name: parameter for name, parameter in parameters().items() if parameter.value is None}
     problems = []
-    for name, value in model.variables.items():
+    for name, value in variables.items():
         if name not in known:
-            problems.append(f"{model.path}: {name} is no variable of a model; these are {', '.join(known)}")
+            problems.append(f"{name} is no variable of a model; these are {', '.join(known)}")
         elif problem := known[name].problem(value):
-            problems.append(f"{model.path}: {problem}")
-    if not problems and model.dmin > model.dmax:
-        problems.append(f"{model.path}: dmin {model.dmin:g} is more than dmax {model.dmax:g}")
-    if not problems and not LOWEST <= model.half_heights <= HIGHEST:
-        low, high = (math.ceil(model.ngrains * share / model.half_heights) for share in (LOWEST, HIGHEST))
-        problems.append(
-            f"{model.path}: ngrains {model.ngrains}: about {low} to {high} are expected; {model.ngrains} of these grains "
-            f"would be {model.half_heights:.2g} times as high as one half of the box"
-        )
+            problems.append(problem)
     return problems
+
+
+def _size_problems(model: Model) -> list[str]:
+    if model.dmin > model.dmax:
+        return [f"dmin {model.dmin:g} is more than dmax {model.dmax:g}"]
+    if LOWEST <= model.half_heights <= HIGHEST:
+        return []
+    low, high = (math.ceil(model.ngrains * share / model.half_heights) for share in (LOWEST, HIGHEST))
+    return [
+        f"ngrains {model.ngrains}: about {low} to {high} are expected; {model.ngrains} of these grains "
+        f"would be {model.half_heights:.2g} times as high as one half of the box"
+    ]
 
 
 def _stress_problems(stresses: tuple[float, ...]) -> list[str]:
