@@ -113,6 +113,8 @@ def explain_failure(phase: Phase, status: int) -> Failure:
     if free_bytes(phase.folder) < LEAST_FREE_BYTES:
         reason += f" (the disk is full: {free_bytes(phase.folder) / 1e6:.0f} MB free)"
         may_pass = True
+    if "'dt any'" in reason:  # words of decks
+        reason += "\n  With shearbox: a smaller --dt, or --dt auto"
     where = phase.log if phase.log.exists() else phase.screen
     return Failure(f"{phase.label} failed: {reason}\n  log: {where}", may_pass)
 

@@ -163,15 +163,20 @@ def total(forecasts: Sequence[Forecast], jobs: int) -> str:
 
 
 def time_step(request: Request) -> float:
-    """The step (s) that is asked for, or about what auto will take: 0.9 of the limit of the smallest disc in a triangular
-    lattice of its like (src/core/stability.h)."""
+    """The step (s) that is asked for, or about what auto will take."""
     if request.dt != "auto":
         return number(request.dt)
+    most = number((read_variables(PARAMETERS) | request.settings)["dt_max"])
+    return min(0.9 * stability_limit(request), most / math.sqrt(request.stiffness))
+
+
+def stability_limit(request: Request) -> float:
+    """Of the smallest disc in a triangular lattice of its like, s (src/core/stability.h): other contacts of the scene, as those
+    of a wall, may have a lower one."""
     texts = read_variables(PARAMETERS) | request.settings
-    p = {name: number(texts[name]) for name in ("kn", "ks", "hn", "hs", "density", "thickness", "dt_max")}
+    p = {name: number(texts[name]) for name in ("kn", "ks", "hn", "hs", "density", "thickness")}
     mass = p["density"] * p["thickness"] * math.pi / 4 * request.model.dmin**2
     kn, ks = request.stiffness * p["kn"], request.stiffness * p["ks"]
     stiffness = 6 * kn + 3 * ks
     damping = math.sqrt(2 * mass) * (6 * p["hn"] * math.sqrt(kn) + 3 * p["hs"] * math.sqrt(ks))
-    limit = 4 * mass / (math.sqrt(damping**2 + 4 * mass * stiffness) + damping)
-    return min(0.9 * limit, p["dt_max"] / math.sqrt(request.stiffness))
+    return 4 * mass / (math.sqrt(damping**2 + 4 * mass * stiffness) + damping)

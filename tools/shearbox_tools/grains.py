@@ -55,6 +55,14 @@ def area_over_largest(shape: str) -> float:
     return float(covered * (at[1] - at[0]) / 4)
 
 
+def length_over_largest(shape: str) -> float:
+    """The greatest distance across the grain over the diameter of its largest disc."""
+    discs = discs_of(shape)
+    apart = discs[:, None, :2] - discs[None, :, :2]
+    r = discs[:, 2]
+    return float(np.max(np.hypot(*apart.T) + r + r[:, None]) / (2 * np.max(r)))
+
+
 def _covered(x: np.ndarray, r: np.ndarray, off: np.ndarray) -> float:
     """Length that the discs cover of a horizontal line, from which their centres are `off`."""
     cut = np.abs(off) < r

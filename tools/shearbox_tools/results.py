@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from .doubts import narrow
 from .ensemble import Estimate, as_angle, mean_of
 from .errors import ShearboxError
 from .features import proportional
@@ -124,7 +125,7 @@ def read_results(folder: Path) -> Results:
             remarks += [(sigma, text) for text in shear.remarks]
     identity, stresses = record["identity"], record["stresses"]
     model_file = Path(record.get("model_file", ""))
-    notes = said_once(remarks)
+    notes = said_once(remarks) + _narrow(identity)
     return Results(folder, identity, model_file, stresses, packing, consolidations, shears, problems, notes)
 
 
@@ -179,6 +180,14 @@ def _told(path: Path, read: Callable[[], Value], problems: list[str]) -> Value |
     except ShearboxError as error:
         problems.append(str(error))
         return None
+
+
+def _narrow(identity: dict[str, Any]) -> list[str]:
+    """What doubts.py says of the width of the box; nothing where the record does not tell the grains."""
+    try:
+        return narrow(*(identity[f"model {name}"] for name in ("width", "dmax", "shape")))
+    except (LookupError, ValueError, TypeError, AttributeError, ArithmeticError):
+        return []
 
 
 def _optional(path: Path, problems: list[str]) -> dict[str, float] | None:

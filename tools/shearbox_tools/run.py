@@ -18,6 +18,7 @@ from .campaign import Campaign
 from .campaign_file import is_campaign
 from .checks import check
 from .display import Display, Whole, duration, make_display
+from .doubts import doubts
 from .engine import Engine, free_bytes
 from .errors import InputError, ShearboxError
 from .files import RECORD
@@ -53,6 +54,8 @@ def run(options: argparse.Namespace, asked: list[dict[str, Any]]) -> None:
     out, runs, engine = prepare(options, asked)
     console = Console()
     _note_cores(min(options.jobs, tests_of(runs)), engine.ranks, console)
+    for text in doubts_of(runs):
+        _say(console, f"note: {text}")
     forecasts = _forecasts_of(runs, engine)
     if options.dry_run:
         _say(console, f"{forecast_text(runs, forecasts)}\nin all {total(forecasts, options.jobs)}, into {out}")
@@ -138,6 +141,11 @@ def _in_turn(out: Path, groups: list[tuple[Path, list[Run]]]) -> list[Run]:
 def tests_of(runs: list[Run]) -> int:
     """How many tests they are: one for each stress."""
     return sum(len(one.request.stresses) for one in runs)
+
+
+def doubts_of(runs: list[Run]) -> list[str]:
+    """Each once."""
+    return list(dict.fromkeys(text for one in runs for text in doubts(one.request)))
 
 
 def carry_out(
@@ -307,7 +315,10 @@ def _sheared(one: Run) -> list[float]:
 def _note_cores(jobs: int, ranks: int, console: Console) -> None:
     cores = len(os.sched_getaffinity(0))
     if jobs * ranks > cores:
-        console.print(f"note: {jobs} jobs of {ranks} ranks share {cores} cores: fewer would be faster")
+        many = [
+            f"{count} {what}{'s' * (count > 1)}" for count, what in ((jobs, "job"), (ranks, "rank"), (cores, "core"))
+        ]
+        _say(console, f"note: there are {many[2]} for {many[0]} of {many[1]}: fewer would be faster")
 
 
 def check_disk(folder: Path, forecasts: list[Forecast]) -> None:

@@ -20,7 +20,7 @@ from .jobs import JOBS, REPORT, TESTS, Jobs, name_of, read_jobs
 from .layout import Layout
 from .lock import locked
 from .phases import left_to_do
-from .run import carry_out, check_disk, opened, prepare
+from .run import carry_out, check_disk, doubts_of, opened, prepare
 from .schedulers import Job, Scheduler, find_scheduler
 from .specimens import Run
 
@@ -41,6 +41,8 @@ def submit(options: argparse.Namespace, asked: list[dict[str, Any]]) -> None:
     layout = Layout(left, cluster, given.get("jobs"), engine.ranks)
     scripts = {name: scheduler.script(job, cluster) for name, job in _jobs(out, layout).items()}
     print(_in_words(layout))
+    for text in doubts_of(runs):
+        print(f"note: {text}")
     if options.dry_run:
         for name, script in scripts.items():
             print(f"\n{_script(out, name)}:\n{script}", end="")
