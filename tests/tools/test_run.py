@@ -207,12 +207,44 @@ def test_a_failed_packing_ends_the_run(folder):
     assert not (folder / "100").exists()
 
 
-def test_a_run_that_has_come_to_nothing_is_told(folder):
-    """Its time step, say, was refused by the engine: nobody wants to go on with it."""
+@pytest.mark.parametrize("seeds", [[], ["--seeds", "2"]])
+def test_a_run_that_failed_at_once_is_begun_anew(folder, seeds):
+    """Its time step, say, was refused by the engine: nobody wants to go on with it, nor with its stresses."""
+    assert shearbox(folder, "--engine", "/bin/false", "--dt", "1e-5", "--stress", "200", *seeds).returncode == 1
+    done = shearbox(folder, "--stress", "100", *seeds)
+    assert done.returncode == 0, done.stderr
+    record = json.loads((folder / ("seed_2" if seeds else "") / "run.json").read_text(encoding="utf-8"))
+    assert record["identity"]["dt"] == "auto" and record["stresses"] == [100]
+    assert "holds another run" in shearbox(folder, "--stress", "100", "--dt", "1e-7", *seeds).stderr
+
+
+@pytest.mark.parametrize("left", ["run.json", "packed/packed.restart.a"])
+def test_a_run_that_may_be_gone_on_with_is_not_begun_anew(folder, left):
+    """One without a log may be yet to start, as in a job that waits; and a restart file is a result."""
     assert shearbox(folder, "--engine", "/bin/false", "--dt", "1e-5").returncode == 1
+    if left == "run.json":
+        shutil.rmtree(folder / "packed")
+    else:
+        (folder / left).write_text("state", encoding="utf-8")
     refused = shearbox(folder, "--stress", "100")
-    assert refused.returncode == 2
-    assert refused.stderr.endswith("It has no results: remove the folder, or take another --out.\n")
+    assert refused.returncode == 2 and "holds another run" in refused.stderr
+    assert ("It has no results: remove the folder" in refused.stderr) == (left == "run.json")
+
+
+def test_a_specimen_that_failed_and_is_not_asked_for_again_is_told(folder):
+    assert shearbox(folder, "--engine", "/bin/false", "--dt", "1e-5", "--seeds", "2").returncode == 1
+    refused = shearbox(folder, "--stress", "100", "--seeds", "1")
+    assert refused.returncode == 2 and f"{folder / 'seed_2'} holds another run" in refused.stderr
+
+
+def test_a_step_that_the_engine_refuses_has_the_words_of_the_tools(folder, tmp_path):
+    engine = tmp_path / "engine"
+    engine.write_text(
+        "#!/bin/sh\necho \"ERROR: take 'dt auto', or 'dt any' to run nevertheless\"\nexit 1\n", encoding="utf-8"
+    )
+    engine.chmod(0o755)
+    failed = shearbox(folder, "--engine", str(engine))
+    assert "With shearbox: a smaller --dt, or --dt auto\n  log: " in failed.stderr
 
 
 def test_an_engine_that_is_killed_is_named(folder, tmp_path):

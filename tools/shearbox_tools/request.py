@@ -17,6 +17,7 @@ from .presets import HOSTS, LAMMPS, STRESSES
 
 OWN_OPTION = {name: f"--{name}" for name in ("seed", "law", "dt", "stiffness")}  # of variables of parameters.in
 _REMEDY = "Put back a copy of it, or run in another folder"
+_LOG = re.compile(r".*\.(log|out)(\.\d+)?")
 _KINDS: dict[str, type | tuple[type, ...]] = {
     "model": str, "model width": (int, float), "model half_height": (int, float), "model ngrains": int,
     "speed_mm_s": (int, float), "travel_mm": (int, float), "seed": int, "law": str, "dt": str,
@@ -64,16 +65,19 @@ def placed(request: Request, folder: Path) -> Request:
     return replace(request, model=replace(model, path=folder / model.path.name)) if model.text is not None else request
 
 
-def check_folder(folder: Path, request: Request) -> set[float]:
-    """Refuse a folder of another request, or of something else; the stresses (kPa) that an earlier run asked for."""
+def check_folder(folder: Path, request: Request, may_replace: bool = True) -> set[float]:
+    """Refuse a folder of another request, or of something else; the stresses (kPa) that an earlier run asked for. One that
+    failed before it had any result is none, if it may be replaced."""
     if (folder / RECORD).exists():
         known = read_record(folder)
         there, asked = known["identity"], _identity(request)
         if differences := _differences(there, asked):
+            if may_replace and _has_failed_at_once(folder):
+                return set()
             advice = f"To go on with what is there: shearbox run {shlex.quote(str(folder))}. Else take another --out."
             if there["parameters"].keys() != asked["parameters"].keys():
                 advice = f"Another version began it, with other variables in {PARAMETERS.name}. Take another --out."
-            if _came_to_nothing(folder):
+            if not _leavings(folder):
                 advice = "It has no results: remove the folder, or take another --out."
             raise InputError(f"{folder} holds another run:\n" + "\n".join([*differences, advice]))
         return set(known["stresses"])
@@ -87,10 +91,16 @@ def check_folder(folder: Path, request: Request) -> set[float]:
     return set()
 
 
-def _came_to_nothing(folder: Path) -> bool:
-    """Whether a run has left no more than logs, as with a time step that the engine refuses."""
-    nothing = re.compile(rf"{RECORD}|{TIMINGS}|{LOCK}|.*\{SUFFIX}|.*\.(log|out)(\.\d+)?")
-    return all(path.is_dir() or nothing.fullmatch(path.name) for path in folder.rglob("*"))
+def _has_failed_at_once(folder: Path) -> bool:
+    """Whether an engine has left no more than logs, as with a time step that it refuses. Without a log it may be yet to start, as
+    in a job that waits."""
+    return not _leavings(folder) and any(_LOG.fullmatch(path.name) for path in folder.rglob("*"))
+
+
+def _leavings(folder: Path) -> list[Path]:
+    """What there is beside the record of a run and logs."""
+    beside = re.compile(rf"{RECORD}|{TIMINGS}|{LOCK}|.*\{SUFFIX}|{_LOG.pattern}")
+    return [path for path in folder.rglob("*") if not path.is_dir() and not beside.fullmatch(path.name)]
 
 
 def open_folder(folder: Path, request: Request) -> None:

@@ -114,7 +114,8 @@ def check_out(out: Path, runs: list[Run]) -> None:
     for other in there:
         if other.name.endswith(OF_ITS_OWN) != runs[0].name.endswith(OF_ITS_OWN):
             raise InputError(f"--out {out} holds {other.name}, with --independent or without; take another --out")
-        check_folder(other, replace(runs[0].request, seed=read_record(other)["identity"]["seed"]))
+        request = replace(runs[0].request, seed=read_record(other)["identity"]["seed"])
+        check_folder(other, request, may_replace=other in {run.folder for run in runs})
 
 
 def _natural(path: Path) -> list[tuple[int, str]]:
