@@ -79,7 +79,7 @@ def test_runs_that_differ_in_more_than_their_seeds_are_not_put_together(runs):
     ensembles, left_out = put_together([one, fast[0], two, rough, fast[1], with_identity(three, speed_mm_s=2)])
     assert not left_out
     assert [[run.identity["seed"] for run in ensemble.specimens] for ensemble in ensembles] == [[1, 2, 3], [1, 2], [3]]
-    assert what_differs(ensembles) == ["speed 2 mm/s, phi 27", "speed 10 mm/s, phi 27", "speed 2 mm/s, phi 30"]
+    assert what_differs(ensembles) == ["speed 2 mm/s, φ_μ 27°", "speed 10 mm/s, φ_μ 27°", "speed 2 mm/s, φ_μ 30°"]
 
 
 def test_a_packing_counts_once(runs):
@@ -377,9 +377,9 @@ def test_what_is_set_is_told():
     identity |= {"stiffness": 0.1, "model dmin": 0.0045}
     run = SimpleNamespace(identity=identity, model_file=REQUEST.model.path)
     ensemble = SimpleNamespace(identity=identity, specimens=[run])
-    assert what_is_set(ensemble) == "dmin 0.0045, stiffness 0.1, phi 35"
+    assert what_is_set(ensemble) == "dmin 0.0045, stiffness 0.1, φ_μ 35°"
     run.model_file = Path("gone.in")
-    assert what_is_set(ensemble) == "stiffness 0.1, phi 35"
+    assert what_is_set(ensemble) == "stiffness 0.1, φ_μ 35°"
 
 
 def test_means_over_stresses_are_of_those_that_all_have(runs):

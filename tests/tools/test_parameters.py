@@ -6,6 +6,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from rich.console import Console
 from test_run import MODEL, SHEARBOX, UNDRAWN, command, shearbox
 
 from shearbox_tools.checks import check
@@ -36,18 +37,39 @@ def test_the_list_says_unit_and_range(capsys):
     assert "--dt" in rows["dt"]
 
 
+def test_all_that_the_list_says_can_be_read_on_a_terminal_of_80_columns(capsys, monkeypatch):
+    monkeypatch.setattr("shearbox_tools.table._console", lambda: Console(width=80))
+    print_parameters()
+    said = capsys.readouterr().out
+    assert max(map(len, said.splitlines())) <= 80
+    words = [
+        word for p in parameters().values() for word in f"{p.name} {p.value or ''} {p.allowed} {p.meaning}".split()
+    ]
+    assert [word for word in words if word not in said] == []
+
+
+def test_variables_of_the_same_kind_have_texts_of_their_own():
+    meanings = [p.meaning for p in parameters().values()]
+    assert len(set(meanings)) == len(meanings)
+
+
 def test_the_same_for_scripts(capsys):
     print_parameters(as_json=True)
     told = {one["name"]: one for one in json.loads(capsys.readouterr().out)}
     assert set(told) == set(parameters())
-    assert told["phi"] == {"name": "phi", "value": "27", "allowed": "0 to 89", "meaning": "friction angle (degrees)"}
+    assert told["phi"] == {
+        "name": "phi",
+        "value": "27",
+        "allowed": "0 to 89",
+        "meaning": "friction angle between grains (degrees)",
+    }
     assert told["width"]["value"] is None
 
 
 @pytest.mark.parametrize(
     "setting, message",
     [
-        ("phi=95", "--set phi 95: 0 to 89 is expected: friction angle (degrees)"),
+        ("phi=95", "--set phi 95: 0 to 89 is expected: friction angle between grains (degrees)"),
         ("phi=-1", "--set phi -1: 0 to 89"),
         ("phi=nan", "--set phi nan: 0 to 89"),
         ("phi=2_7", "--set phi 2_7: 0 to 89"),
@@ -55,7 +77,15 @@ def test_the_same_for_scripts(capsys):
         ("phi", "--set phi: NAME=VALUE is expected, such as phi=30"),
         ("phi=", "--set phi=: NAME=VALUE"),
         ("fi=30", "there is no parameter fi; 'shearbox parameters' lists them"),
-        ("areal=20", "there is no parameter areal"),
+        ("areal=20", "there is no parameter areal; 'shearbox parameters' lists them"),
+        (
+            "friction=30",
+            "there is no parameter friction, did you mean phi, phi_packing, phi_wall; 'shearbox parameters'",
+        ),
+        ("phi_pack=30", "there is no parameter phi_pack, did you mean phi_packing;"),
+        ("step=1e-7", "there is no parameter step, did you mean --dt, dt_max"),
+        ("rows=400", "rows is a variable of input/shear.in alone: run that deck by hand with -var rows 400"),
+        ("model=mine", "there is no parameter model"),
         ("phi_wall=30", "--set phi_wall=30: it changes nothing as long as ks_wall is 0"),
         ("ks_wall=1e7", "--set ks_wall=10000000: it changes nothing as long as phi_wall is 0"),
         ("side_pitch=0.5", "--set side_pitch=0.5: it changes nothing as long as sides is smooth"),
@@ -198,7 +228,7 @@ def test_a_bad_file_among_the_models_costs_no_other(tmp_path, monkeypatch, capsy
 @pytest.mark.parametrize(
     "old, new, message",
     [
-        ("index 27 ", "index 95 ", "parameters.in: phi 95: 0 to 89 is expected: friction angle (degrees)"),
+        ("index 27 ", "index 95 ", "parameters.in: phi 95: 0 to 89 is expected: friction angle between"),
         ("index 0.25 ", "index wide ", "parameters.in: flanges wide: 0.01 to 2 is expected"),
         ("variable kn ", "variable kN ", "parameters.in: there is no variable kn with what it may be in [ ]"),
         ("[1e3 to 1e12]", "[1e3 to many]", "parameters.in: kn 1.0e8: 1e3 to many is expected"),

@@ -12,7 +12,11 @@ from .models import PARAMETERS, read_model, read_variables
 from .parameters import canonical
 from .results import Results
 
-UNITS = {"speed_mm_s": ("speed", " mm/s"), "travel_mm": ("travel", " mm")}
+UNITS = {
+    "speed_mm_s": ("speed", " mm/s"),
+    "travel_mm": ("travel", " mm"),
+    "phi": ("φ_μ", "°"),  # of the contacts: φ is that of the sand
+}
 
 
 @dataclass(frozen=True)

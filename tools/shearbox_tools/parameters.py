@@ -8,9 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from .errors import InputError, ShearboxError
-from .models import PARAMETERS, RANGE, definitions, lines
+from .models import INPUT, PARAMETERS, RANGE, ROOT, definitions, lines
 from .numerals import number, numeral
 
+PACK_DECK, SHEAR_DECK = INPUT / "pack.in", INPUT / "shear.in"
 _OF_THE_MODEL = re.compile(r"^#   (\w+) +(.*\])$")
 _NEEDED = (
     "seed",
@@ -96,11 +97,7 @@ def read_settings(texts: list[str], own_option: dict[str, str]) -> dict[str, str
         elif name in own_option:
             problems.append(f"--set {text}: the option for this is {own_option[name]}")
         elif name not in known:
-            close = "".join(
-                f", did you mean {other}"
-                for other in difflib.get_close_matches(name, known.keys() - own_option.keys(), 1)
-            )
-            problems.append(f"--set {text}: there is no parameter {name}{close}; 'shearbox parameters' lists them")
+            problems.append(f"--set {text}: {_unknown(name, value, known, own_option)}")
         elif name in settings:
             problems.append(f"--set {text}: {name} is set twice")
         elif problem := known[name].problem(value):
@@ -111,6 +108,22 @@ def read_settings(texts: list[str], own_option: dict[str, str]) -> dict[str, str
     if problems:
         raise InputError("\n".join(problems))
     return settings
+
+
+def _unknown(name: str, value: str, known: dict[str, Parameter], own_option: dict[str, str]) -> str:
+    """Where a variable is that none of these is, or which of them may be meant: by its name, or by a word of its meaning."""
+    if name in _variables_of(SHEAR_DECK) and name not in _variables_of(PACK_DECK):
+        deck = SHEAR_DECK.relative_to(ROOT)
+        return f"{name} is a variable of {deck} alone: run that deck by hand with -var {name} {value}"
+    word = re.compile(rf"\b{re.escape(name)}\b", re.IGNORECASE)
+    meant = difflib.get_close_matches(name, known, 1) or [p.name for p in known.values() if word.search(p.meaning)]
+    hint = f", did you mean {', '.join(own_option.get(other, other) for other in meant)}" if meant else ""
+    return f"there is no parameter {name}{hint}; 'shearbox parameters' lists them"
+
+
+def _variables_of(deck: Path) -> set[str]:
+    """Those that a command line may give."""
+    return {name for name, style, _, _ in definitions(deck) if style == "index"}
 
 
 def _idle(settings: dict[str, str], known: dict[str, Parameter]) -> list[str]:

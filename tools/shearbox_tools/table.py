@@ -12,6 +12,8 @@ from .models import Model, model_files, read_model, table_order
 from .parameters import parameters
 from .request import OWN_OPTION
 
+BROKEN = {"may be": 24, "meaning, unit": None}  # columns that go on in a further line, and how wide they are at most
+
 
 def print_models(as_json: bool = False) -> None:
     """One line a model, and one for each file that is none; as JSON, with the variables of its file, the models alone."""
@@ -51,7 +53,10 @@ def print_parameters(as_json: bool = False) -> None:
 def _table(*columns: str, right: tuple[str, ...] = ("box, cm", "discs, mm", "discs/grain", "grains")) -> Table:
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     for name in columns:
-        table.add_column(name, justify="right" if name in right else "left", no_wrap=not name.startswith("meaning"))
+        whole, most = name not in BROKEN, BROKEN.get(name)
+        table.add_column(
+            name, justify="right" if name in right else "left", no_wrap=whole, max_width=most, overflow="fold"
+        )
     return table
 
 
