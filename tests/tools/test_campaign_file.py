@@ -104,9 +104,18 @@ def test_a_model_file_lies_beside_the_campaign(tmp_path: Path) -> None:
         ("[runs]\na = 3", "study.toml: a = 3: a table is expected"),
         ('[runs."../a"]\n', "study.toml: [runs.../a]: letters, digits, _ . + - are expected"),
         ("[runs.a]\nseeds = 2", "study.toml: [runs.a]: there is no model"),
-        (f'[runs.a]\nmodel = "{MODEL}"\nspede = 2', "study.toml: [runs.a]: unrecognized arguments: --spede 2"),
-        (f'[runs.a]\nmodel = "{MODEL}"\nout = "b"', "study.toml: [runs.a]: unrecognized arguments: --out b"),
-        (f'[runs.a]\nmodel = "{MODEL}"\njobs = 2', "study.toml: [runs.a]: unrecognized arguments: --jobs 2"),
+        (
+            f'[runs.a]\nmodel = "{MODEL}"\nspede = 2',
+            "study.toml: [runs.a]: there is no option spede of a run; did you mean speed",
+        ),
+        (
+            f'[runs.a]\nmodel = "{MODEL}"\nout = "b"',
+            "study.toml: [runs.a]: there is no option out of a run; there are model, stress, accuracy, ",
+        ),
+        (
+            f'[runs.a]\nmodel = "{MODEL}"\njobs = 2',
+            "study.toml: [runs.a]: there is no option jobs of a run; there are model, stress",
+        ),
         (
             f'[all]\nseeds = "x"\n[runs.a]\nmodel = "{MODEL}"',
             "study.toml: [all]: argument --seeds: 'x': a number, or a range such as 4-8, is expected",
@@ -114,7 +123,10 @@ def test_a_model_file_lies_beside_the_campaign(tmp_path: Path) -> None:
         (f'[runs.a]\nmodel = "{MODEL}"\n[runs.b]\nmodel = "none"', "study.toml: [runs.b]: unknown model 'none'"),
         (f'[runs.a]\nmodel = "{MODEL}"\nset = {{ phi = 95 }}', "[runs.a]: --set phi 95: 0 to 89 is expected"),
         (f'[runs.a]\nmodel = "{MODEL}"\nstress = -100', "study.toml: [runs.a]: --stress -100: a stress above 0 kPa"),
-        (f'[runs.a]\nmodel = "{MODEL}"\nstres = 100', "study.toml: [runs.a]: unrecognized arguments: --stres 100"),
+        (
+            f'[runs.a]\nmodel = "{MODEL}"\nstres = 100',
+            "study.toml: [runs.a]: there is no option stres of a run; did you mean stress",
+        ),
         (
             f'[runs."report.html"]\nmodel = "{MODEL}"',
             "[runs.report.html]: files and folders of reports and jobs have such",

@@ -14,9 +14,10 @@ model file, NAME.in, is looked for from the folder of the campaign file.
 """
 
 import argparse
+import difflib
 import re
 import tomllib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -44,8 +45,11 @@ def is_campaign(model: str) -> bool:
     return model.endswith(ENDING)
 
 
-def read_campaign(path: Path, parse: Callable[[list[str]], Options], given: Options) -> list[Options]:
-    """What each run is asked for, `out` included: `parse` reads words of a command line, `given` is what the real one says."""
+def read_campaign(
+    path: Path, names: Collection[str], parse: Callable[[list[str]], Options], given: Options
+) -> list[Options]:
+    """What each run is asked for, `out` included: `names` are those of the options that a run may have, `parse` reads words of a
+    command line, `given` is what the real one says."""
     out = given.get("out")
     if out is None:
         raise InputError(f"{path}: --out is needed")
@@ -55,7 +59,7 @@ def read_campaign(path: Path, parse: Callable[[list[str]], Options], given: Opti
         raise InputError(f"--only {' '.join(unknown)}: {path} has {', '.join(runs)}")
     asked = []
     for name, table in ((name, table) for name, table in runs.items() if name in only):
-        layers = [_parsed(path, where, t, parse) for where, t in ((OF_ALL, of_all), (f"{RUNS}.{name}", table))]
+        layers = [_parsed(path, where, t, names, parse) for where, t in ((OF_ALL, of_all), (f"{RUNS}.{name}", table))]
         options = _put_together([*layers, {name: value for name, value in given.items() if name != "model"}])
         if "model" not in options:
             raise InputError(f"{path}: [{RUNS}.{name}]: there is no model")
@@ -88,7 +92,13 @@ def _tables(path: Path) -> tuple[Options, dict[str, Options]]:
     return tables.get(OF_ALL, {}), runs
 
 
-def _parsed(path: Path, where: str, table: Options, parse: Callable[[list[str]], Options]) -> Options:
+def _parsed(
+    path: Path, where: str, table: Options, names: Collection[str], parse: Callable[[list[str]], Options]
+) -> Options:
+    if unknown := [name for name in table if name not in names]:
+        close = difflib.get_close_matches(unknown[0], names, 1)
+        hint = f"did you mean {close[0]}" if close else f"there are {', '.join(names)}"
+        raise InputError(f"{path}: [{where}]: there is no option {unknown[0]} of a run; {hint}")
     words = [str(table["model"])] if "model" in table else ["-"]
     for name, value in table.items():
         if name != "model":

@@ -10,7 +10,7 @@ import signal
 import sys
 from pathlib import Path
 from types import FrameType
-from typing import Any
+from typing import Any, NoReturn
 
 from . import __version__
 from .errors import InputError, ShearboxError
@@ -19,6 +19,14 @@ from .presets import COLOURINGS, DENSITIES, FILMS, FORM, FORMATS, HOSTS, LAWS, P
 Commands = argparse._SubParsersAction  # argparse has no public name for it
 DEPENDENCIES = {"numpy": "python3-numpy", "scipy": "python3-scipy", "matplotlib": "python3-matplotlib",
                 "jinja2": "python3-jinja2", "rich": "python3-rich"}  # fmt: skip
+
+
+class Parser(argparse.ArgumentParser):
+    """Says what is wrong without a usage of many lines before it."""
+
+    def error(self, message: str) -> NoReturn:
+        """Of what was given."""
+        self.exit(2, f"shearbox: {message}\nSee '{self.prog} --help'\n")
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -57,9 +65,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 def make_parser() -> argparse.ArgumentParser:
     """All commands and options, with units."""
-    parser = argparse.ArgumentParser(
-        prog="shearbox", description="The 2D direct shear test of sand by the distinct element method."
-    )
+    parser = Parser(prog="shearbox", description="The 2D direct shear test of sand by the distinct element method.")
     parser.add_argument("--version", action="version", version=f"shearbox {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_models(commands)
@@ -167,7 +173,12 @@ def _add_options_of_a_run(run: argparse.ArgumentParser) -> None:
                       help="chooses --speed: " + ", ".join(f"{name} {v:g} mm/s" for name, v in SPEEDS.items())
                       + f" (default: {REFERENCE})")  # fmt: skip
     pace.add_argument("--speed", metavar="V", type=float, help="shear speed, mm/s (default: that of --accuracy)")
-    run.add_argument("--travel", metavar="S", type=float, help="shear displacement at the end, mm (default: 8)")
+    run.add_argument(
+        "--travel",
+        metavar="S",
+        type=float,
+        help="shear displacement at the end, mm (default: 8); to go on further later is not possible",
+    )
     run.add_argument("--seed", metavar="N", type=int, help="seed of the packing (default: 1)")
     run.add_argument("--seeds", metavar="N", type=_seeds, nargs="+", action="extend",
                      help="several specimens: one number is how many, with seeds from 1 on; several, or ranges such as 4-8, are "
@@ -319,7 +330,8 @@ def _add_jobs(commands: Commands) -> None:
         ("cancel", _cancel, "end the jobs of a folder"),
         ("element", _element, "carry out a part of what was submitted: for the scripts of jobs"),
     ):
-        parser = commands.add_parser(name, help=what, description=f"{what[0].upper()}{what[1:]}.")
+        listed: dict[str, Any] = {} if command is _element else {"help": what}  # that one is not for people
+        parser = commands.add_parser(name, description=f"{what[0].upper()}{what[1:]}.", **listed)
         parser.add_argument("folder", metavar="DIR", type=Path, help="folder given to 'shearbox submit --out'")
         parser.set_defaults(command=command)
         if command is _status:
@@ -378,7 +390,10 @@ def _asked(options: argparse.Namespace) -> list[dict[str, Any]]:
         return [_with_speed(options)]
     parser = OptionParser(add_help=False, allow_abbrev=False, argument_default=argparse.SUPPRESS)
     _add_options_of_a_run(parser)
-    return read_campaign(Path(options.model), lambda words: _with_speed(parser.parse_args(words)), _with_speed(options))
+    names = [option.dest for option in parser._actions]  # argparse has no public name for it
+    return read_campaign(
+        Path(options.model), names, lambda words: _with_speed(parser.parse_args(words)), _with_speed(options)
+    )
 
 
 def _with_speed(options: argparse.Namespace) -> dict[str, Any]:

@@ -51,7 +51,7 @@ def model_text(name: str, friction: float = 0.0) -> str | None:
     if column > 1.8:  # that of build.in
         values["loose"] = (numeral(column), "height of the loose column that is packed, over that of the box")
     sizes = f"{equal} mm" if equal else f"{least} to {greatest} mm"
-    head = f"# Box of 2 x {wide} x {high} cm, {ngrains} {grains} of {sizes}."
+    head = f"# Box of two halves of {wide} x {high} cm, {ngrains} {grains} of {sizes}."
     lines = [
         f"variable {name:11} index {value}" + f"   # {said}" * bool(said) for name, (value, said) in values.items()
     ]
