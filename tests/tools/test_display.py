@@ -49,10 +49,26 @@ def test_bars_on_a_terminal(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    "seconds, text", [(3.4, "3 s"), (99, "99 s"), (101, "2 min"), (5900, "98 min"), (12000, "3 h 20 min")]
+    "seconds, text",
+    [
+        (0, "under 1 s"),
+        (0.4, "under 1 s"),
+        (0.6, "1 s"),
+        (3.4, "3 s"),
+        (99, "99 s"),
+        (101, "2 min"),
+        (5900, "98 min"),
+        (12000, "3 h 20 min"),
+    ],
 )
 def test_durations(seconds, text):
     assert display.duration(seconds) == text
+    assert display.about(seconds) == (text if text.startswith("under") else f"about {text}")
+
+
+@pytest.mark.parametrize("size, text", [(0.2e6, "0 MB"), (46e6, "46 MB"), (999.6e6, "1.0 GB"), (4838e6, "4.8 GB")])
+def test_amounts(size, text):
+    assert display.amount(size) == text
 
 
 def test_time_left_of_the_whole_follows_from_the_work_done(monkeypatch):

@@ -359,6 +359,7 @@ REFUSED = [
     (["--engine", "/nowhere/lmp"], "the engine /nowhere/lmp is not there"),
     (["--out", "/proc/nothing"], "--out /proc/nothing:"),
     (["--unknown"], "unrecognized arguments: --unknown"),
+    (["--set", "travel=9"], "--set travel=9: the option for this is --travel"),
 ]
 
 
@@ -367,6 +368,7 @@ def test_bad_options_are_refused_before_anything_starts(folder, options, message
     refused = shearbox(folder, *options)
     assert refused.returncode == 2, refused.stdout
     assert message.replace("'", "") in refused.stderr.replace("'", "")  # argparse of Python 3.13 quotes less
+    assert "usage:" not in refused.stderr
     assert "Traceback" not in refused.stderr
     assert not folder.exists()
 

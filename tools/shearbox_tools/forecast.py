@@ -10,7 +10,7 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
-from .display import duration
+from .display import about, amount, duration
 from .hosts import HOSTS
 from .logs import read_logs
 from .models import PARAMETERS, read_variables
@@ -153,11 +153,12 @@ def memory_of_all(forecasts: Sequence[Forecast], jobs: int) -> float:
 
 def total(forecasts: Sequence[Forecast], jobs: int) -> str:
     """A line of the time that is left for all of them, what it goes by, and the memory and disk that are needed."""
-    seconds = seconds_of_all(forecasts, jobs)
+    at_a_time = min(jobs, sum(forecast.tests for forecast in forecasts))
+    how = f"with {at_a_time} phases at a time" if at_a_time > 1 else "one phase after the other"
     paces = sorted({f"{1e9 * f.pace:.0f}" for f in forecasts}, key=float)
     return (
-        f"about {duration(seconds)}, {memory_of_all(forecasts, jobs) / 1e6:.0f} MB of memory, "
-        f"{sum(f.bytes for f in forecasts) / 1e6:.0f} MB of disk (an estimate from "
+        f"{about(seconds_of_all(forecasts, jobs))} {how}, without the report; "
+        f"{amount(memory_of_all(forecasts, jobs))} of memory, {amount(sum(f.bytes for f in forecasts))} of disk (an estimate from "
         f"{' to '.join(dict.fromkeys([paces[0], paces[-1]]))} ns a disc and step of shear, good to a factor of 2)"
     )
 

@@ -16,6 +16,7 @@ from .parameters import canonical, of_model, parameters
 from .presets import HOSTS, LAMMPS, STRESSES
 
 OWN_OPTION = {name: f"--{name}" for name in ("seed", "law", "dt", "stiffness")}  # of variables of parameters.in
+OPTION_OF_SHEAR = {"sigma": "--stress", "speed": "--speed", "travel": "--travel"}  # of variables of shear.in
 _REMEDY = "Put back a copy of it, or run in another folder"
 _LOG = re.compile(r".*\.(log|out)(\.\d+)?")
 _KINDS: dict[str, type | tuple[type, ...]] = {

@@ -17,7 +17,7 @@ from rich.console import Console
 from .campaign import Campaign
 from .campaign_file import is_campaign
 from .checks import check
-from .display import Display, Whole, duration, make_display
+from .display import Display, Whole, amount, duration, make_display
 from .doubts import doubts
 from .engine import Engine, free_bytes
 from .errors import InputError, ShearboxError
@@ -30,7 +30,7 @@ from .numerals import number, numeral
 from .parameters import canonical, of_model, read_settings
 from .phases import DECKS, shearing
 from .presets import DENSITIES, PACKING_FRICTION
-from .request import OWN_OPTION, Request, check_folder, open_folder, placed, recorded
+from .request import OPTION_OF_SHEAR, OWN_OPTION, Request, check_folder, open_folder, placed, recorded
 from .specimens import Run, check_out, find_runs, planned, read_seeds
 
 SPARE_BYTES = 100_000_000
@@ -241,7 +241,7 @@ def _one_asked(given: dict[str, Any]) -> tuple[Path, Request]:
 
 def _settings(given: dict[str, Any]) -> dict[str, str]:
     """Of --set and --density."""
-    settings = read_settings(given.get("set", []), OWN_OPTION)
+    settings = read_settings(given.get("set", []), OWN_OPTION | OPTION_OF_SHEAR)
     if "density" not in given:
         return settings
     if PACKING_FRICTION in settings:
@@ -325,11 +325,11 @@ def check_disk(folder: Path, forecasts: list[Forecast]) -> None:
     """Refuse to begin what will not fit."""
     need, free = sum(forecast.bytes for forecast in forecasts) + SPARE_BYTES, free_bytes(folder)
     if free < need:
-        raise InputError(f"--out {folder}: about {need / 1e6:.0f} MB will be written, {free / 1e6:.0f} MB are free")
+        raise InputError(f"--out {folder}: about {amount(need)} will be written, {amount(free)} are free")
 
 
 def _check_memory(forecasts: list[Forecast], jobs: int) -> None:
     """Refuse what this machine could not hold: its processes would be killed after hours."""
     need, there = memory_of_all(forecasts, jobs), os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
     if there < need:
-        raise InputError(f"about {need / 1e9:.0f} GB of memory are needed, this machine has {there / 1e9:.0f} GB")
+        raise InputError(f"about {amount(need)} of memory are needed, this machine has {amount(there)}")

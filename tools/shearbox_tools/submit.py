@@ -11,7 +11,7 @@ from typing import Any
 from rich.console import Console
 
 from .cluster import read_cluster
-from .display import duration
+from .display import about, amount, duration
 from .engine import Engine
 from .errors import ShearboxError
 from .files import write_text
@@ -111,8 +111,8 @@ def _in_words(layout: Layout) -> str:
     runs = max(map(len, layout.elements))
     return (
         f"{count} job{'s' * (count > 1)} of {runs} specimen{'s' * (runs > 1)}, {layout.at_a_time} tests at a time on "
-        f"{layout.cores} cores: about {duration(layout.seconds)} each, at most {duration(60 * layout.minutes)}; "
-        f"{layout.memory / 1e6:.0f} MB of memory"
+        f"{layout.cores} cores: {about(layout.seconds)} each, at most {duration(60 * layout.minutes)}; "
+        f"{amount(layout.memory)} of memory"
     )
 
 
