@@ -121,6 +121,18 @@ def test_on_screens(page: Path, ensemble: Path, comparison: Path, tmp_path: Path
     assert dict(zip(shown, found)) == {each: [] for each in shown}
 
 
+def test_diagrams_stand_in_columns(page: Path, tmp_path: Path) -> None:
+    """One on a phone, two on a tablet of 800 px, three on a desk."""
+    text = page.read_text(encoding="utf-8")
+    tell = "getComputedStyle(document.querySelector('.figures')).gridTemplateColumns.split(' ').length"
+    probe = tmp_path / "probe.html"
+    probe.write_text(
+        text.replace("</body>", f"<script>document.body.textContent = {tell}</script></body>"), encoding="utf-8"
+    )
+    columns = {width: told(tmp_path, probe, f"--window-size={width},900") for width in (500, 800, 1400)}
+    assert columns == {500: 1, 800: 2, 1400: 3}
+
+
 BROKEN = {
     "beyond the page: <p": '<p style="width: 500px">too wide</p>',
     "cut off: <p": '<p style="width: 90px; overflow: hidden; white-space: nowrap">longer than its paragraph is</p>',

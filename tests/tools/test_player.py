@@ -170,7 +170,7 @@ def test_colours_and_moment(folder: Path, tmp_path: Path) -> None:
     assert min(middle["pixel"]) > 240
     assert grey["pixel"] == [0xC9, 0xCE, 0xD4] and grey["grain"] == "Point at a grain, or touch it."
     assert red["pixel"][0] > 2 * red["pixel"][1]
-    assert middle["now"].startswith("0.00 mm") and red["now"].startswith("8.00 mm")
+    assert middle["now"] == "0.00 mm, τ 0.0 kPa (line), lid 0.000 mm (dashes)" and red["now"].startswith("8.00 mm")
 
 
 def test_packing() -> None:

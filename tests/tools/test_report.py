@@ -14,7 +14,7 @@ from shearbox_tools.cli import main
 from shearbox_tools import curves
 from shearbox_tools.models import find_model
 from shearbox_tools.notes import said_once
-from shearbox_tools.page import minus, number
+from shearbox_tools.page import minus, number, signs
 from shearbox_tools.report import report
 from shearbox_tools.request import Request
 from shearbox_tools.results import read_results
@@ -121,14 +121,30 @@ def test_stress_ratios_have_one_scale(folder):
 
 
 def test_further_columns_have_diagrams(folder):
-    """If the tables of all stresses have them."""
+    """If the tables of all stresses have them, and unless they are zero all along; the page says what they are."""
     for sigma in STRESSES:
         curve = synthetic.curves(sigma, 8)
+        curve["sides_upper_kPa"] = np.zeros(800)
         curve["coordination"] = np.full(800, 3.0)
         if sigma == 100:
             curve["inertial"] = np.zeros(800)
         synthetic.write_shear(folder / f"{sigma:g}" / "shear.dat", curve)
     assert list(curves.other_columns(read_results(folder))) == ["coordination", "trm", "kinetic_J"]
+    page = report(folder).read_text(encoding="utf-8")
+    assert (
+        "<figcaption>Contacts of a grain, with grains and walls: mean" in page
+        and "Column coordination of curve.csv" in page
+    )
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_of_one_stress_the_page_says_what_strength_needs(folder):
+    record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+    (folder / "run.json").write_text(json.dumps(record | {"stresses": [STRESSES[0]]}), encoding="utf-8")
+    needed = "friction angle φ, cohesion c: two normal stresses or more are needed"
+    assert needed in report(folder).read_text(encoding="utf-8")
+    (folder / "run.json").write_text(json.dumps(record), encoding="utf-8")
+    assert needed not in report(folder).read_text(encoding="utf-8")
 
 
 def test_a_remark_is_said_once():
@@ -456,3 +472,14 @@ def test_numbers_as_people_write_them(value, text):
 @pytest.mark.parametrize("text, shown", [("-0.00", "0.00"), ("+0.00", "0.00"), ("-0.01", "−0.01"), ("+1.5", "+1.5")])
 def test_signs(text, shown):
     assert minus(text) == shown
+
+
+@pytest.mark.parametrize(
+    "text, shown",
+    [
+        ("τ = -5 kPa (≤ 1e-3)", "τ = −5 kPa (≤ 1e−3)"),
+        ("TypeA_10x5_4-8 in /a-1/seed_1-3, quasi-static", "TypeA_10x5_4-8 in /a-1/seed_1-3, quasi-static"),
+    ],
+)
+def test_signs_of_numbers_are_no_hyphens(text, shown):
+    assert signs(text) == shown

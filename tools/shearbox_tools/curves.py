@@ -19,13 +19,29 @@ DISPLACEMENT = "shear displacement (mm)"
 MARKS = 5  # on a curve
 MARGIN = 0.05  # of the height of a diagram, above and below the curves
 
-OTHERS = {  # further columns that have a diagram each, if they are there, and what they are called
-    "inertial": "inertial number I (–)",
-    "coordination": "coordination number (–)",
-    "solid_fraction": "solid fraction (–)",
-    "sides_upper_kPa": "load on the upper sides (kPa)",
-    "trm": "TRM so far: above 1 grains spin (–)",
-    "kinetic_J": "kinetic energy (J)",
+OTHERS = {  # further columns that have a diagram each, if they are there: what they are called, and what they are
+    "inertial": (
+        "inertial number I (–)",
+        "Inertial number between the sides, floor and lid: shear rate times √(mean mass of a grain / mean stress).",
+    ),
+    "coordination": (
+        "coordination number (–)",
+        "Contacts of a grain, with grains and walls: mean between the sides, floor and lid.",
+    ),
+    "solid_fraction": (
+        "solid fraction (–)",
+        "Area of the grains between the sides, floor and lid over that of this rectangle.",
+    ),
+    "sides_upper_kPa": (
+        "load on the upper sides (kPa)",
+        "Vertical force with which the sides of the upper half press the grains down, over width and thickness of the box.",
+    ),
+    "trm": (
+        "TRM so far: above 1 grains spin (–)",
+        "Rotation rate of motion: what a grain has turned at its rim over its path since the start (eq. 6 of the paper); mean of "
+        "the grains.",
+    ),
+    "kinetic_J": ("kinetic energy (J)", "Kinetic energy of the grains, of their motion and their spin."),
 }
 
 
@@ -80,8 +96,9 @@ def stress_ratios(results: Results) -> dict[str, Figure]:
 
 
 def other_columns(results: Results) -> dict[str, Figure]:
-    """A diagram for each of the other columns that the tables of all stresses have, by its name."""
-    names = [name for name in OTHERS if all(name in shear.data for shear in results.shears)]
+    """A diagram for each of the other columns that the tables of all stresses have and that are not zero all along, by its name."""
+    there = [name for name in OTHERS if all(name in shear.data for shear in results.shears)]
+    names = [name for name in there if any(np.any(shear.data[name][shear.rows]) for shear in results.shears)]
     return {name: _column(results, name) for name in names}
 
 
@@ -108,7 +125,7 @@ def _by_plane(shear: Shear, s: np.ndarray) -> np.ndarray:
 
 
 def _column(results: Results, name: str) -> Figure:
-    figure, axes = diagram(DISPLACEMENT, OTHERS[name])
+    figure, axes = diagram(DISPLACEMENT, OTHERS[name][0])
     for k, (shear, look) in enumerate(_each(results)):
         s, y = shear.data["displacement_mm"][shear.rows], shear.data[name][shear.rows]
         axes.plot(s, y, look.mark, **_line(look, k, len(s), 1.2))

@@ -2,6 +2,7 @@
 """HTML pages, each a single file that opens without a network."""
 
 import math
+import re
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -28,7 +29,7 @@ def environment(*folders: Path) -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    made.filters.update(duration=duration, number=number, minus=minus)
+    made.filters.update(duration=duration, number=number, minus=minus, signs=signs)
     return made
 
 
@@ -42,3 +43,8 @@ def number(value: float | None, digits: int = 4) -> str:
 def minus(text: str) -> str:
     """The text with a minus sign for its hyphen, and none before a zero."""
     return text.lstrip("+-") if not text.strip("+-0.") else text.replace("-", "−")
+
+
+def signs(text: str) -> str:
+    """A sentence with minus signs before its negative numbers and exponents; words and names keep their hyphens."""
+    return re.sub(r"((?<!\w)|(?<=\de))-(?=\d)", "−", text)

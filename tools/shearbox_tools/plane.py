@@ -2,10 +2,9 @@
 """Stresses on the shear plane, for tables of a shear phase that have them.
 
 The grains between the halves bear the lid and what the sides of the upper half press down besides, less what rests on
-flanges of the lower half; and they carry the shear force between the halves, not that between the lower half and the
-grains in the pockets under the flanges, which the force on the lower half holds as well (input/shear.in): columns
-plane_kPa and plane_tau_kPa, over the full width of the box. Neither is quite what the lid and the lower half feel, and
-an angle of friction by the one pair is not that by the other.
+flanges of the lower half. Their shear force is all that the upper half and the lid hold, less what flanges bear; those of
+smooth sides are flat and bear none, so there it is that of the halves (input/shear.in). Columns plane_kPa and
+plane_tau_kPa are these over the full width of the box. An angle of friction by them is not that by the lid.
 """
 
 from dataclasses import dataclass

@@ -100,7 +100,9 @@ def _test(shear: Shear, moments: Sequence[Moment], paints: dict[str, Paint]) -> 
     return {
         "sigma": shear.sigma,
         "displacement": _short([moment.displacement for moment in moments]),
-        "curves": {name: _short(shear.data[name][rows]) for name in ("displacement_mm", "tau_kPa", "lid_mm")},
+        "curves": {  # from the beginning on, before the first row
+            name: [0.0, *_short(shear.data[name][rows])] for name in ("displacement_mm", "tau_kPa", "lid_mm")
+        },
         "low": low.tolist(),
         "high": high.tolist(),
         "bar_mm": round_down(1000 * (high[0] - low[0]) / 5),
