@@ -46,8 +46,8 @@ def test_a_travel_beyond_the_flanges_is_refused(tmp_path: Path, grains: Frame) -
     """They were built for a quarter of the width, 7.5 mm, and end within a disc of it."""
     hand_over(grains, "liggghts", tmp_path)
     _, output = start("include ${decks}/shear.in", tmp_path, decks=INPUT / "liggghts", **SMALL, travel=13)
-    found = re.search(r"ERROR: .* travel at most (\d+) um", output)
-    assert found and 7500 <= int(found[1]) <= 12000
+    found = re.search(r"ERROR: .* travel at most ([\d.]+) mm", output)
+    assert found and 7.5 <= float(found[1]) <= 12
     assert not (tmp_path / "shear.dat").exists()
 
 
