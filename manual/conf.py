@@ -26,6 +26,7 @@ html_theme = "furo"
 html_title = f"Shearbox {release}"
 html_math_renderer = "mathml"
 html_show_sphinx = False
+html_static_path, html_css_files = ["static"], ["width.css"]
 nitpicky = True
 smartquotes = False  # words of decks stay as they are
 

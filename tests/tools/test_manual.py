@@ -79,6 +79,21 @@ def test_on_a_phone(manual: Path, tmp_path: Path) -> None:
     assert len(widths) > 25 and {name: width for name, width in widths.items() if width > 390} == {}
 
 
+@pytest.mark.skipif(bool(MISSING), reason="no chromium: tools/setup --ci installs it")
+def test_the_code_of_styles_on_a_desk(manual: Path, tmp_path: Path) -> None:
+    """The comments of headers are seen whole at 1280 px."""
+    pages = sorted((manual / "generated").glob("*cdem*.html"))
+    frames = "".join(
+        f'<iframe style="width: 1280px; height: 800px; border: 0" src="{page.as_uri()}"></iframe>' for page in pages
+    )
+    beyond = "Math.max(0, ...[...f.contentDocument.querySelectorAll('pre')].map(p => p.scrollWidth - p.clientWidth))"
+    tell = f"onload = () => {{ document.body.textContent = JSON.stringify([...document.querySelectorAll('iframe')].map(f => {beyond})); }}"
+    harness = tmp_path / "harness.html"
+    harness.write_text(f'<!DOCTYPE html><meta charset="utf-8"><body>{frames}<script>{tell}</script>', encoding="utf-8")
+    cut = dict(zip((page.stem for page in pages), told(tmp_path, harness, "--allow-file-access-from-files")))
+    assert len(cut) > 15 and {name: px for name, px in cut.items() if px} == {}
+
+
 def test_the_man_page(manual: Path) -> None:
     """It has the commands with their options, as man shows them."""
     page = (manual / "man" / "shearbox.1").read_text(encoding="utf-8")
