@@ -5,10 +5,12 @@ import math
 from collections.abc import Mapping
 
 from .errors import InputError
+from .files import SHEAR_TABLE
 from .hosts import HOSTS
 from .models import PARAMETERS, Model, read_variables
 from .numerals import number
 from .parameters import canonical, parameters
+from .phases import frames_of, rows_of_shear
 from .presets import STRESSES
 from .request import OWN_OPTION, Request
 
@@ -131,5 +133,12 @@ def _shear_problems(request: Request) -> list[str]:
         problems.append(
             f"--travel {request.travel:g}: 0.1 to {share * width:g} mm, {share:g} of the box's width, "
             f"are expected{hint}"
+        )
+    rows, frames = rows_of_shear(), frames_of(request.settings)
+    if rows % frames:
+        near = [max(n for n in range(1, frames) if rows % n == 0), min(n for n in range(frames, rows + 1) if rows % n == 0)]
+        problems.append(
+            f"--set frames={frames}: a number that divides the {rows} rows of {SHEAR_TABLE} is expected, such as "
+            f"{near[0]} or {near[1]}; else no frame would be of the end of the test"
         )
     return problems

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The phases of a run: which deck, in which folder, with which variables, and when it is done."""
 
-import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -173,7 +172,7 @@ def frames_of(settings: Mapping[str, str]) -> int:
 
 def steps_between_frames(settings: Mapping[str, str], steps_between_rows: int) -> int:
     """As shear.in has it."""
-    return steps_between_rows * math.ceil(rows_of_shear() / frames_of(settings))
+    return steps_between_rows * rows_of_shear() // frames_of(settings)
 
 
 def disk_need(request: Request, folder: Path) -> int:
