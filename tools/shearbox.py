@@ -70,20 +70,20 @@ class Test:
     @property
     def phi_deg(self) -> float | None:
         """Friction angle by the peaks of the polynomials and the lid's stress; None if it cannot be told."""
-        line = self.results.line
-        return None if self.doubts or line is None else line.phi_deg
+        line = self.results.strength
+        return line.phi_deg if line else None
 
     @property
     def c_kPa(self) -> float | None:
         """Cohesion of the same line."""
-        line = self.results.line
-        return None if self.doubts or line is None else line.c_kPa
+        line = self.results.strength
+        return line.c_kPa if line else None
 
     @property
     def phi_plane_deg(self) -> float | None:
         """Friction angle by the stresses on the shear plane."""
-        line = self.results.plane_line
-        return None if self.doubts or line is None else line.phi_deg
+        line = self.results.plane_strength
+        return line.phi_deg if line else None
 
     def curve(self, sigma: float) -> pd.DataFrame:
         """All columns of shear.dat at a stress, a row for each interval of the displacement; and the fitted curves tau_fit_kPa

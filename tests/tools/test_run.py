@@ -325,7 +325,10 @@ REFUSED = [
         ["--host", "liggghts", "--set", "sides=discs", "phi_packing=45"],
         "phi_packing is 45; only phi_packing=0 is possible",
     ),
-    (["--set", "frames=3"], "--set frames=3: a number that divides the 800 rows of shear.dat is expected, such as 2 or 4; else"),
+    (
+        ["--set", "frames=3"],
+        "--set frames=3: a number that divides the 800 rows of shear.dat is expected, such as 2 or 4; else",
+    ),
     (["--host", "liggghts", "--set", "sides=discs", "frames=5"], "frames is 5; only frames=100 is possible there"),
     (["--stress", "-100"], "--stress -100: a stress above 0 kPa"),
     (["--stress", "nan"], "--stress nan: a stress above 0 kPa"),

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from shearbox_tools.files import write_text
 from shearbox_tools.mean_curve import Band, MeanCurve, as_csv, band_of
-from shearbox_tools.style import OTHER_LOOKS, RC, SIZE, Look, diagram, looks, name_stresses
+from shearbox_tools.style import AXIS_COLOUR, OTHER_LOOKS, RC, SIZE, Look, diagram, looks, name_stresses
 
 from .findings import BOXES, COARSE, FINE, FINEST, TRIPLE
 from .specimens import CURVES, PLACES, Group
@@ -66,7 +66,7 @@ def _model(group: Group, number: int, folder: Path) -> Picture:
         for curve in curves:
             band = curve.tau if part == "a" else curve.lid
             _with_error(axes, curve.displacement, band.mean, band.error, look[curve.sigma])
-        axes.axhline(0, color="#8a929b", lw=0.8)
+        axes.axhline(0, color=AXIS_COLOUR, lw=0.8)
         axes.set_xlim(0, 8)
         name_stresses(axes, look)
         parts.append(_written(figure, folder / f"fig{number:02d}{part}.svg"))
@@ -161,7 +161,7 @@ def _rotation(groups: Groups, kinds: Mapping[str, str], number: int, title: str,
             table = zip(PLACES, trm.mean, trm.error)
             lines += [f"{box},{kind},{len(group.drawn)},{x:.6g},{y:.6g},{e:.6g}" for x, y, e in table]
         axes[0, k].set_xlabel("horizontal displacement (mm)")
-    axes[0, 0].axhline(1, color="#8a929b", lw=0.8)
+    axes[0, 0].axhline(1, color=AXIS_COLOUR, lw=0.8)
     axes[0, 0].set_xlim(0, 8)
     axes[0, 0].set_ylim(bottom=0)
     return _finished(figure, axes, number, title, lines, folder)

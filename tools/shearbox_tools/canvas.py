@@ -12,9 +12,8 @@ from matplotlib.colors import Colormap, Normalize
 from matplotlib.figure import Figure
 from PIL import Image
 
-from .style import data_uri
+from .style import INK, data_uri
 
-INK = "#23282e"
 PICTURE_WIDTH = 4.2  # inches
 STRIP = 0.1  # height of the strip with scale and arrow, of the picture's width
 STRIP_FONT = 12  # points

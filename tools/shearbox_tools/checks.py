@@ -136,7 +136,10 @@ def _shear_problems(request: Request) -> list[str]:
         )
     rows, frames = rows_of_shear(), frames_of(request.settings)
     if rows % frames:
-        near = [max(n for n in range(1, frames) if rows % n == 0), min(n for n in range(frames, rows + 1) if rows % n == 0)]
+        near = [
+            max(n for n in range(1, frames) if rows % n == 0),
+            min(n for n in range(frames, rows + 1) if rows % n == 0),
+        ]
         problems.append(
             f"--set frames={frames}: a number that divides the {rows} rows of {SHEAR_TABLE} is expected, such as "
             f"{near[0]} or {near[1]}; else no frame would be of the end of the test"

@@ -57,7 +57,7 @@ BY_STRESS = [
     Measure("ratio_at_end", "τ/σ at the end", "–", 3, lambda shear: shear.at_end.ratio),
     *OVER_STRESSES,
     Measure("steepest_dilatancy", "steepest dilatancy", "mm/mm", 3, lambda shear: steepest(shear.lid)[1]),
-    Measure("lid_highest_mm", "highest lid", "mm", 2, lambda shear: _highest(shear)),
+    Measure("lid_highest_mm", "highest lid", "mm", 2, lambda shear: shear.lid_highest),
 ]
 
 
@@ -165,7 +165,3 @@ def _strength(ensemble: Ensemble, by: str) -> tuple[Mean | None, Mean | None]:
 def _of_specimens(ensemble: Ensemble, value: Callable[[Shear], float]) -> np.ndarray:
     """(specimens,) means over the stresses of each."""
     return np.array([np.mean([value(shear) for shear in run.shears]) for run in ensemble.specimens])
-
-
-def _highest(shear: Shear) -> float:
-    return float(np.max(shear.lid.series(np.linspace(0, shear.lid.span, 401))))

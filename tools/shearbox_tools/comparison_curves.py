@@ -7,10 +7,10 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from .curves import DISPLACEMENT
-from .ensemble_curves import POINTS, Limits, limits_of
+from .ensemble_curves import POINTS, Limits, scales_of
 from .ensemble_results import Ensemble
 from .mean_curve import Band, MeanCurve
-from .style import ALL_LOOKS, RC, Look, as_uri, diagram
+from .style import ALL_LOOKS, AXIS_COLOUR, RC, Look, as_uri, diagram
 
 Line = tuple[str, Look, MeanCurve]
 
@@ -18,8 +18,7 @@ Line = tuple[str, Look, MeanCurve]
 def draw_comparison(names: Sequence[str], ensembles: Sequence[Ensemble]) -> dict[str, str]:
     """SVG as data: URIs: 'stress SIGMA' and 'lid SIGMA' of every stress that any ensemble has."""
     every = [curve for ensemble in ensembles for curve in ensemble.curves.values()]
-    ratio = limits_of([(curve.tau, curve.sigma) for curve in every], 0.0)
-    lid = limits_of([(curve.lid, 1.0) for curve in every], 0.0)
+    ratio, lid = scales_of(every)
     pictures = {}
     with rc_context(RC):
         for sigma in sorted({curve.sigma for curve in every}):
@@ -45,7 +44,7 @@ def _overlaid(lines: Sequence[tuple[Line, Band, float]], sigma: float, title: st
             width = band.error[rows] / over
             axes.fill_between(s, mean - width, mean + width, color=look.colour, alpha=0.18, lw=0)
         axes.plot(s, mean, color=look.colour, ls=look.dashes, lw=1.5, label=f"{name} ({curve.count})")
-    axes.axhline(0, color="#8a929b", lw=0.8)
+    axes.axhline(0, color=AXIS_COLOUR, lw=0.8)
     axes.set(xlim=(0, max(curve.displacement[-1] for (_, _, curve), _, _ in lines)), ylim=limits)
     axes.legend(
         loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=5, title=f"{sigma:g} kPa", alignment="left",

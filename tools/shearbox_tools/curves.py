@@ -13,7 +13,7 @@ from .peak import steepest
 from .polynomial import Fit, end_zone
 from .results import Results
 from .shear import Shear
-from .style import Look, diagram, looks, name_stresses
+from .style import AXIS_COLOUR, Look, diagram, looks, name_stresses
 
 DISPLACEMENT = "shear displacement (mm)"
 MARKS = 5  # on a curve
@@ -175,7 +175,7 @@ def _finish(axes: Axes, results: Results, heights: list[np.ndarray]) -> None:
     margin = MARGIN * (high - low) or 1.0  # a curve may be zero all along
     axes.set_ylim(low - margin * (low < 0), high + margin)
     axes.set_xlim(0, results.identity["travel_mm"])
-    axes.axhline(0, color="#8a929b", lw=0.8, zorder=1)
+    axes.axhline(0, color=AXIS_COLOUR, lw=0.8, zorder=1)
     name_stresses(axes, looks([shear.sigma for shear in results.shears]))
 
 

@@ -10,11 +10,10 @@ from matplotlib.figure import Figure
 
 from .ensemble_results import Ensemble
 from .mean_curve import Band, MeanCurve
-from .style import LINE_COLOUR, RC, Look, as_uri, diagram, looks
+from .style import AXIS_COLOUR, INK, LINE_COLOUR, RC, Look, as_uri, diagram, looks
 
 POINTS = 400  # of a line, at most
 MARGIN = 0.06  # of a scale, above and below what is shown
-INK = "#23282e"
 
 Limits = tuple[float, float]
 
@@ -22,8 +21,7 @@ Limits = tuple[float, float]
 def draw_ensembles(ensembles: Sequence[Ensemble]) -> list[dict[str, str]]:
     """For each ensemble its diagrams, SVG as data: URIs: 'stress SIGMA', 'lid SIGMA', 'strength'."""
     every = [curve for ensemble in ensembles for curve in ensemble.curves.values()]
-    ratio = limits_of([(curve.tau, curve.sigma) for curve in every], 0.0)
-    lid = limits_of([(curve.lid, 1.0) for curve in every], 0.0)
+    ratio, lid = scales_of(every)
     drawn = []
     with rc_context(RC):
         for ensemble in ensembles:
@@ -38,14 +36,19 @@ def draw_ensembles(ensembles: Sequence[Ensemble]) -> list[dict[str, str]]:
     return drawn
 
 
-def limits_of(bands: Sequence[tuple[Band, float]], include: float) -> Limits:
-    """A scale on which all of them are seen, each over its number."""
+def scales_of(curves: Sequence[MeanCurve]) -> tuple[Limits, Limits]:
+    """Of the stress ratio and of the lid's rise: 0 and all of the curves are seen."""
+    return _limits([(curve.tau, curve.sigma) for curve in curves]), _limits([(curve.lid, 1.0) for curve in curves])
+
+
+def _limits(bands: Sequence[tuple[Band, float]]) -> Limits:
+    """Each band is over its number."""
     ends = [
         edge / over
         for band, over in bands
         for edge in (band.mean - np.nan_to_num(band.deviation), band.mean + np.nan_to_num(band.deviation))
     ]
-    low, high = min(include, *(end.min() for end in ends)), max(include, *(end.max() for end in ends))
+    low, high = min(0.0, *(end.min() for end in ends)), max(0.0, *(end.max() for end in ends))
     margin = MARGIN * (high - low) or 1.0  # curves may be zero all along
     return low - margin, high + margin
 
@@ -70,7 +73,7 @@ def _curve(curve: MeanCurve, band: Band, over: float, name: str, look: Look, lim
         lw=1.3,
         label=f"mean of {curve.count}" if curve.count > 1 else "one specimen",
     )
-    axes.axhline(0, color="#8a929b", lw=0.8)
+    axes.axhline(0, color=AXIS_COLOUR, lw=0.8)
     axes.set(xlim=(0, s[-1]), ylim=limits)
     axes.legend(
         loc="lower left", bbox_to_anchor=(-0.02, 1.0), fontsize=7, title=f"{curve.sigma:g} kPa", alignment="left"

@@ -73,10 +73,8 @@ def _strength(strength: EnsembleStrength | None, which: str) -> dict[str, Any]:
 
 def _fit_alone(ensemble: Ensemble) -> dict[str, float | None] | None:
     """The line of a single specimen, whose intervals do not hold the scatter of specimens."""
-    run = ensemble.specimens[0]
-    if ensemble.count > 1 or run.line is None or run.doubts:
-        return None
-    return of_line(run.line)
+    strength = ensemble.specimens[0].strength
+    return of_line(strength) if strength and ensemble.count == 1 else None
 
 
 def _specimen(folder: Path, run: Results) -> dict[str, Any]:
@@ -87,7 +85,7 @@ def _specimen(folder: Path, run: Results) -> dict[str, Any]:
         "folder": _from(folder, run.folder),
         "seed": run.identity["seed"],
         "tau_peak_kPa": peaks,
-        "phi_deg": None if run.line is None or run.doubts else run.line.phi_deg,
+        "phi_deg": run.strength.phi_deg if run.strength else None,
         "report": _from(folder, page) if own else None,
     }
 

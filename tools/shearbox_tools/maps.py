@@ -11,9 +11,9 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import Colormap, Normalize
 from matplotlib.patches import Polygon
 
-from .canvas import INK, STRIP, Canvas, colour_scale, draw_key, round_down
+from .canvas import STRIP, Canvas, colour_scale, draw_key, round_down
 from .fields import Fields
-from .style import RC, as_uri
+from .style import INK, RC, as_uri
 
 ASIDE = 0.05  # shown beside the box, of its width
 DPI = 130  # 300 on A4

@@ -144,7 +144,7 @@ def _page(results: Results, summary: dict[str, Any], specimens: dict[float, Stil
     """Its size in MB is told on itself."""
     fields = _fields(results, specimens)
     values = dict(
-        summary=summary, line=results.line, plane_line=results.plane_line, knows_plane=results.knows_plane, diagrams=_diagrams(results),
+        summary=summary, line=results.strength, plane_line=results.plane_strength, knows_plane=results.knows_plane, diagrams=_diagrams(results),
         pictures=draw_specimens(specimens), specimens=specimens, film=film, maps=draw_maps(fields), mapped=list(fields), columns=curves.OTHERS, logs=phase_logs(results),
         row_mm=max(map(_row_mm, results.shears)), consolidations=[(f"{sigma:g}", bed) for sigma, bed in results.consolidations.items()], known_scatter=known_scatter(results.identity), comments=_comments(results.model_file),
     )  # fmt: skip

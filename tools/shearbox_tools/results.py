@@ -62,6 +62,16 @@ class Results:
         """Coulomb's line through the peaks of the polynomials, of at least two stresses."""
         return self._line([shear.peak for shear in self.shears])
 
+    @property
+    def strength(self) -> Line | None:
+        """The line, if there are no doubts: what is told as φ and c."""
+        return None if self.doubts else self.line
+
+    @property
+    def plane_strength(self) -> Line | None:
+        """The same by the stresses on the shear plane."""
+        return None if self.doubts else self.plane_line
+
     @cached_property
     def smoothed_line(self) -> Line | None:
         """The same through the peaks of the smoothed data."""

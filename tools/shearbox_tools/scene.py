@@ -12,13 +12,14 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from .canvas import INK, draw_scale, furnish
+from .canvas import draw_scale, furnish
 from .curves import DISPLACEMENT, MARGIN
 from .drawing import draw_chains, draw_discs, extent
 from .motion import full_speed
 from .paints import Paint
 from .readers import Columns
 from .specimen import Moment
+from .style import AXIS_COLOUR, INK
 
 SIZE = (8.0, 4.5)  # inches
 SPECIMEN = (0.01, 0.14, 0.55, 0.77)  # left, bottom, width, height, of the picture
@@ -94,7 +95,7 @@ def _diagram(figure: Figure, curves: Columns, name: str) -> tuple[Line2D, Line2D
     margin = MARGIN * (high - low)
     axes.set(xlim=(0, curves["displacement_mm"][-1]), ylim=(low - margin, high + margin))
     axes.set(ylabel=title, xlabel=DISPLACEMENT if name == list(CURVES)[-1] else "")
-    axes.axhline(0, color="#8a929b", lw=0.8, zorder=1)
+    axes.axhline(0, color=AXIS_COLOUR, lw=0.8, zorder=1)
     (line,) = axes.plot([], [], color=CURVE_COLOUR, lw=0.9)
     (mark,) = axes.plot([], [], "o", ms=6, color=MARK_COLOUR, mec="white", mew=1.0, zorder=4, clip_on=False)
     return line, mark

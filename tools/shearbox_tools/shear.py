@@ -133,6 +133,11 @@ class Shear:
         return Dilatant(self.ultimate[0] / self.sigma, float(slope))
 
     @property
+    def lid_highest(self) -> float:
+        """Greatest height of the lid by its polynomial."""
+        return float(np.max(self.lid.series(np.linspace(0, self.lid.span, 401))))
+
+    @property
     def felt_error(self) -> float:
         """Mean stress that the lid feels over the applied one, less 1."""
         return float(np.mean(self.data["sigma_kPa"]) / self.sigma - 1)

@@ -35,7 +35,7 @@ class Moment:
 
     def moved_since(self, first: "Moment") -> float:
         """How far (m) the lower half has moved since another moment."""
-        return float(np.subtract(*(m.grains["x"][m.grains["lower"] == 1].mean() for m in (self, first))))
+        return lower_half_at(self.grains) - lower_half_at(first.grains)
 
     def branches(self) -> np.ndarray:
         """(contacts, 3, 2) from the centre of the one grain over the contact point to that of the other, in m."""
@@ -44,6 +44,11 @@ class Moment:
         ends = [centres[[row[i] for i in self.contacts[name]]] for name in ("id1", "id2")]
         points = np.column_stack([self.contacts["x"], self.contacts["y"]])
         return np.stack([ends[0], points, ends[1]], axis=1)
+
+
+def lower_half_at(grains: Columns) -> float:
+    """Mean x (m) of the wall discs of the lower half: all of them move alike."""
+    return float(grains["x"][grains["lower"] == 1].mean())
 
 
 def rows_of(present: np.ndarray, wanted: np.ndarray) -> np.ndarray:
@@ -130,7 +135,7 @@ def count_lost(folder: Path, total: int, width: float, half_height: float) -> in
     dump = Dump(folder / GRAINS_DUMP, GRAINS)
     before, grains = dump.frame(dump.steps[0]), dump.frame(dump.steps[-1])
     x, y, radius = grains["x"], grains["y"], grains["radius"]
-    moved = x[grains["lower"] == 1].mean() - before["x"][before["lower"] == 1].mean()
+    moved = lower_half_at(grains) - lower_half_at(before)
     top = np.min((y - radius)[grains["lid"] == 1])
     left = np.where(y > half_height, 0, moved)
     inside = (x > left - radius) & (x < left + width + radius) & (y > -radius) & (y < top + radius)

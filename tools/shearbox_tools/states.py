@@ -15,7 +15,7 @@ from .shear import Shear
 from .smoothed import smooth
 from .strength import Line
 from .stress_dilatancy import rowe_ratio
-from .style import LINE_COLOUR, Look, diagram, looks, name_stresses
+from .style import AXIS_COLOUR, LINE_COLOUR, Look, diagram, looks, name_stresses
 
 BEYOND = 1.1  # the diagrams end at so many times the greatest stress
 LEAST_WIDTH = 0.8  # of a diagram of equal scales, of its height
@@ -66,7 +66,7 @@ def stress_dilatancy(results: Results) -> Figure:
         rates += [slope(s), [shear.at_peak.rate, shear.at_end.rate]]
     _draw_rowe(axes, results, np.concatenate([*rates, [0]]))
     axes.set_ylim(bottom=min(0, axes.get_ylim()[0]))
-    axes.axvline(0, color="#8a929b", lw=0.8, zorder=1)
+    axes.axvline(0, color=AXIS_COLOUR, lw=0.8, zorder=1)
     name_stresses(axes, of)
     return figure
 
@@ -81,8 +81,8 @@ def _hollow(look: Look) -> dict[str, Any]:
 
 def _lines(results: Results) -> list[tuple[Line, str, Any]]:
     """Coulomb's lines that can be told, what their normal stress is that of, and their dashes."""
-    lines = ((results.line, "lid", "-"), (results.plane_line, "shear plane", PLANE_DASHES))
-    return [] if results.doubts else [(line, by, dashes) for line, by, dashes in lines if line]
+    lines = ((results.strength, "lid", "-"), (results.plane_strength, "shear plane", PLANE_DASHES))
+    return [(line, by, dashes) for line, by, dashes in lines if line]
 
 
 def _draw_peaks(axes: Axes, shear: Shear, look: Look) -> None:

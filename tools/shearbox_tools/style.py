@@ -44,6 +44,8 @@ OTHER_LOOKS = (
 )
 ALL_LOOKS = (*PAPER_LOOKS.values(), *OTHER_LOOKS)  # of what belongs to no stress, but is to be told apart
 LINE_COLOUR = "#555d66"  # of what belongs to no stress
+INK = "#23282e"
+AXIS_COLOUR = "#8a929b"  # also of lines at zero
 
 SIZE = (4.4, 3.4)  # of a diagram, inches: text is readable where three of them stand side by side, and on a phone
 RC = {
@@ -55,8 +57,8 @@ RC = {
     "axes.grid": True,
     "grid.color": "#e3e6ea",
     "grid.linewidth": 0.6,
-    "axes.edgecolor": "#8a929b",
-    "axes.labelcolor": "#23282e",
+    "axes.edgecolor": AXIS_COLOUR,
+    "axes.labelcolor": INK,
     "axes.axisbelow": True,
     "xtick.color": "#4a525a",
     "ytick.color": "#4a525a",

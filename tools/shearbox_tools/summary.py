@@ -51,8 +51,8 @@ def summarise(results: Results) -> dict[str, Any]:
 
 def _strength(results: Results) -> dict[str, Any]:
     """Of one specimen: intervals are of the fit alone. Numbers are null as long as there are doubts."""
-    line, smoothed, ultimate = results.line, results.smoothed_line, results.ultimate_angle
-    if not (line and smoothed and ultimate) or results.doubts:
+    line, smoothed, ultimate = results.strength, results.smoothed_line, results.ultimate_angle
+    if not (line and smoothed and ultimate):
         return {"phi_deg": None, "c_kPa": None, "doubts": results.doubts}
     return {
         **of_line(line),
@@ -63,7 +63,7 @@ def _strength(results: Results) -> dict[str, Any]:
         "r_squared": line.r_squared,
         "chi2_reduced": line.chi2_reduced,
         "phi_through_origin_deg": line.phi_through_origin_deg,
-        **of_line(results.plane_line, "_plane"),
+        **of_line(results.plane_strength, "_plane"),
         "phi_smoothed_deg": smoothed.phi_deg,
         "phi_smoothed_half_width_deg": smoothed.phi_half_width_deg,
         "c_smoothed_kPa": smoothed.c_kPa,
@@ -108,7 +108,7 @@ def _stress(results: Results, shear: Shear) -> dict[str, Any]:
         "tau_polynomial_degree": shear.tau.degree,
         "lid_polynomial_degree": shear.lid.degree,
         "lid_at_peak_mm": float(shear.lid.series(peak.position)),
-        "lid_highest_mm": float(np.max(shear.lid.series(np.linspace(0, shear.lid.span, 401)))),
+        "lid_highest_mm": shear.lid_highest,
         "lid_end_mm": float(shear.lid.series(shear.lid.span)),
         "steepest_dilatancy_mm_per_mm": rate,
         "displacement_at_steepest_mm": at_steepest,

@@ -9,6 +9,7 @@ import numpy as np
 from .dumps import CELLS, CONTACTS, DISCS, GRAINS, Dump
 from .files import CELLS_DUMP, CONTACTS_DUMP, DISCS_DUMP, GRAINS_DUMP, SHEAR_TABLE
 from .readers import Columns, read_shear
+from .specimen import lower_half_at
 
 GRID = "cells"  # the table of the cells of a grid
 NAMES = ("grains", "discs", "walls", "contacts", GRID)  # of the tables
@@ -50,8 +51,7 @@ class Tables:
 
     def instant(self, step: int) -> Instant:
         """The displacement is that of the wall discs themselves: rows of the table are means over an interval."""
-        now = self._grains.frame(step)
-        moved = 1000 * float(np.subtract(*(g["x"][g["lower"] == 1].mean() for g in (now, self._first))))
+        moved = 1000 * (lower_half_at(self._grains.frame(step)) - lower_half_at(self._first))
         if "time_s" not in self._shear:
             return Instant(step, moved, None)
         return Instant(step, moved, step * float(self._shear["time_s"][-1] / self._shear["step"][-1]))
