@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
-# A background job ignores these; the programs that the tests interrupt would inherit that.
+# A background job ignores these, or one under nohup; the programs that the tests interrupt would inherit that.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
 signal.signal(signal.SIGQUIT, signal.SIG_DFL)
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as shearbox itself sets it; before anything imports numpy
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))

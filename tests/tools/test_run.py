@@ -10,10 +10,11 @@ import shutil
 import signal
 import subprocess
 import time
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import pytest
-from shearbox_tools import cli
+from shearbox_tools import cli, reading
 from shearbox_tools.named import model_text
 from shearbox_tools.presets import DENSITIES, SPEEDS
 from shearbox_tools.request import Request
@@ -115,6 +116,32 @@ def test_stopped_and_taken_up_again(folder, tmp_path, sign, status):
     assert (folder / "100" / "shear.dat").read_text(encoding="utf-8").splitlines()[: len(before)] == before
     assert summary(folder)["complete"]
     assert rows(folder, 100) == rows(folder, 300) == 800
+
+
+def test_under_nohup_a_hang_up_stops_nothing(folder):
+    """Which is all that nohup does; other signals stop it as ever."""
+    engine = subprocess.Popen(
+        ["nohup", *command(folder, "--stress", "100")], env={**os.environ, "FAKE_SECONDS": "40"},
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    wait_for(lambda: (folder / "100" / "shear.restart.a").exists())
+    reached = step_of(folder / "100" / "shear.restart.a")
+    engine.send_signal(signal.SIGHUP)
+    wait_for(lambda: engine.poll() is not None or step_of(folder / "100" / "shear.restart.a") != reached)
+    assert engine.poll() is None
+    engine.send_signal(signal.SIGTERM)
+    engine.communicate(timeout=15)
+    assert engine.returncode == 143
+
+
+def test_processes_that_read_runs_ignore_what_was_ignored_before_them():
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with ProcessPoolExecutor(1, initializer=reading._end_at_once) as pool:
+            heard = [pool.submit(signal.getsignal, sign).result() for sign in (signal.SIGHUP, signal.SIGTERM)]
+    finally:
+        signal.signal(signal.SIGHUP, before)
+    assert heard == [signal.SIG_IGN, signal.SIG_DFL]
 
 
 def test_asked_to_end_it_goes_on_from_the_row_that_it_has_reached(folder, tmp_path):

@@ -42,9 +42,9 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     # matrices are so small here that threads only wait for each other, on a busy machine for most of the time
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    signals = [signal.SIGTERM, signal.SIGHUP]
-    for sign in signals:
-        signal.signal(sign, _interrupt)
+    for sign in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(sign) != signal.SIG_IGN:  # as nohup leaves it
+            signal.signal(sign, _interrupt)
     try:
         _check_dependencies()
         options.command(options)

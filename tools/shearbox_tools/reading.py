@@ -40,4 +40,5 @@ def read_quietly(folder: Path) -> Results | str:
 def _end_at_once() -> None:
     """When it is stopped: the program that started this process has a message for that."""
     for sign in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(sign, signal.SIG_DFL)
+        if signal.getsignal(sign) != signal.SIG_IGN:
+            signal.signal(sign, signal.SIG_DFL)
