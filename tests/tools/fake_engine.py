@@ -67,6 +67,8 @@ def shear(variables: dict[str, str], log: Path) -> None:
     frames = {name: Path(name).read_text(encoding="utf-8") for name in DUMPS}
     asked: list[int] = []
     signal.signal(signal.SIGUSR1, lambda *_: asked.append(1))
+    with log.open("a", encoding="utf-8") as stream:
+        stream.write("compute     asked all cdem/signal\n")
     first = {name: text[: text.find("ITEM: TIMESTEP", 1) if begin else None] for name, text in frames.items()}
     for row in range(begin, ROWS):
         if row == ROWS // 2:

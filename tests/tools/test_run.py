@@ -9,16 +9,25 @@ import re
 import shutil
 import signal
 import subprocess
+import threading
 import time
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import pytest
+from rich.console import Console
 from shearbox_tools import cli, reading
+from shearbox_tools.campaign import Campaign
+from shearbox_tools.display import Whole, make_display
+from shearbox_tools.engine import Engine
+from shearbox_tools.lock import locked
+from shearbox_tools.models import INPUT, find_model
 from shearbox_tools.named import model_text
+from shearbox_tools.phases import packing
 from shearbox_tools.presets import DENSITIES, SPEEDS
 from shearbox_tools.request import Request
 from shearbox_tools.restarts import step_of
+from shearbox_tools.specimens import Run
 
 TESTS = Path(__file__).resolve().parent
 SHEARBOX = TESTS.parents[1] / "tools" / "shearbox"
@@ -180,6 +189,58 @@ def test_asked_to_end_while_it_packs(folder, tmp_path):
     engine.communicate(timeout=15)
     assert engine.returncode == 128 + signal.SIGUSR1
     assert shearbox(folder, "--stress", "100").returncode == 0
+
+
+@pytest.mark.parametrize("listens", [False, True])
+def test_ranks_are_asked_to_end_once_they_listen(folder, tmp_path, listens):
+    """Before that an mpirun loses the signal, or waits for ever for ranks that it has ended; they have nothing to lose yet."""
+    (tmp_path / "mpirun").write_text(
+        "#!/bin/sh\nshift 2\n" + ('exec "$@"\n' if listens else "trap '' USR1\nexec sleep 60\n"), encoding="utf-8"
+    )
+    (tmp_path / "mpirun").chmod(0o755)
+    engine = subprocess.Popen(
+        command(folder, "--stress", "100", "--ranks", "2"), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        env={**os.environ, "PATH": f"{tmp_path}:{os.environ['PATH']}", "FAKE_SECONDS": "40"},
+    )  # fmt: skip
+    wait_for((folder / "100" / "shear.restart.a" if listens else folder / "packed" / "pack.out").exists)
+    engine.send_signal(signal.SIGUSR1)
+    engine.communicate(timeout=30)
+    assert engine.returncode == 128 + signal.SIGUSR1
+    assert (folder / "100" / "shear.restart.c").exists() == listens
+
+
+def test_what_has_not_heard_is_asked_again(tmp_path, monkeypatch):
+    """An engine that hears the second signal only."""
+    monkeypatch.setattr("shearbox_tools.campaign.SECONDS_TO_ASK_AGAIN", 0.5)
+    deaf, begun = tmp_path / "deaf", tmp_path / "begun"
+    deaf.write_text(
+        "#!/bin/bash\ntrap 'trap \"exit 0\" USR1' USR1\n" + f"touch {begun}\nwhile true; do sleep 0.1; done\n",
+        encoding="utf-8",
+    )
+    deaf.chmod(0o755)
+    one = Run(tmp_path / "results", Request(find_model(MODEL), (100.0,)))
+    console = Console(quiet=True)
+    with locked(one.folder) as lock:
+        campaign = Campaign([one], Engine(deaf), make_display(console, Whole({}, {})), {one.folder: lock})
+        asking = threading.Thread(target=lambda: (wait_for(begun.exists), campaign.end()))
+        asking.start()
+        assert campaign.run(1) == [] and campaign.stopped
+        asking.join()
+
+
+@pytest.mark.parametrize("deck", ["checkpoints.in", "shear.in"])
+def test_a_log_shows_where_a_deck_begins_to_listen(folder, deck):
+    """LAMMPS's log has the lines of the decks, comments too."""
+    phase = packing(folder, Request(find_model(MODEL), (100.0,)))
+    phase.folder.mkdir(parents=True)
+    assert not phase.listens
+    for line in (INPUT / deck).read_text(encoding="utf-8").splitlines(keepends=True):
+        with phase.log.open("a", encoding="utf-8") as log:
+            log.write(line)
+        if line.startswith("compute") and "cdem/signal" in line:
+            break
+        assert not phase.listens
+    assert phase.listens
 
 
 def wait_for(condition, seconds: float = 30) -> None:

@@ -22,6 +22,7 @@ from .seals import Seal, look_at, seal
 from .specimens import Run
 
 POLL_SECONDS = 0.1
+SECONDS_TO_ASK_AGAIN = 10.0
 MOST_SECONDS = 1e9  # that a phase may have taken
 
 
@@ -46,7 +47,7 @@ class Job:
     chain: Chain
     process: subprocess.Popen[bytes]
     begun: float = field(default_factory=time.monotonic)
-    asked: bool = False  # to end
+    asked: float | None = None  # when it was last asked to end
     seen: dict[str, int] = field(default_factory=dict)  # times (ns) of the checkpoints that are sealed
 
     @property
@@ -93,7 +94,7 @@ class Campaign:
                 time.sleep(POLL_SECONDS)
                 self._guard_disk()
                 if self._ending:
-                    _ask_to_end(running)
+                    self._ask_to_end(running)
                 for job in list(running):
                     if not self._attend(job):
                         running.remove(job)
@@ -125,7 +126,7 @@ class Campaign:
             return True
         seconds = _record_time(job)
         _seal(phase)
-        if job.asked and not phase.ended:
+        if job.asked is not None and not phase.ended:
             self._display.ended(job.label, f"stopped after {duration(seconds)}, as asked")
             self.stopped = True
             return False
@@ -143,6 +144,18 @@ class Campaign:
             return False
         job.process, job.begun = self._start(job.chain), time.monotonic()
         return True
+
+    def _ask_to_end(self, jobs: list[Job]) -> None:
+        """Each of them again and again: a signal may be lost. Ranks that do not listen yet have nothing to lose, and mpirun may wait
+        for ever for those that the signal has ended."""
+        for job in jobs:
+            if job.asked is not None and time.monotonic() < job.asked + SECONDS_TO_ASK_AGAIN:
+                continue
+            job.asked = time.monotonic()
+            if job.phase.checkpoints and (self._engine.ranks == 1 or job.phase.listens):
+                job.process.send_signal(signal.SIGUSR1)  # mpirun passes it on; see compute cdem/signal
+            else:
+                stop([job.process])
 
     def _stop(self, running: list[Job]) -> None:
         """End what is still running; a second Ctrl-C must not cut this short."""
@@ -166,16 +179,6 @@ class Campaign:
                 f"stopped because the disk of {folder} is nearly full: {free / 1e6:.0f} MB free, "
                 f"{LEAST_FREE_BYTES / 1e6:.0f} are the least"
             )
-
-
-def _ask_to_end(jobs: list[Job]) -> None:
-    """Each of them once."""
-    for job in [job for job in jobs if not job.asked]:
-        job.asked = True
-        if job.phase.checkpoints:
-            job.process.send_signal(signal.SIGUSR1)  # mpirun passes it on; see compute cdem/signal
-        else:
-            stop([job.process])
 
 
 def _left_to_do(run: Run) -> list[Chain]:

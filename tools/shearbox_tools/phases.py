@@ -2,6 +2,7 @@
 """The phases of a run: which deck, in which folder, with which variables, and when it is done."""
 
 import os
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -19,6 +20,7 @@ from .request import Request
 from .restarts import is_whole
 from .seals import Seal, look_at, seal, unseal
 
+_LISTENS = re.compile(rb"^compute\s+\w+\s+all\s+cdem/signal\b", re.MULTILINE)  # not a comment on it
 DECKS = PACK, CONSOLIDATE, SHEAR = "pack", "consolidate", "shear"
 BYTES_PER_FRAME_AND_DISC = 400  # of the four dumps together; the walls' share is in it
 
@@ -106,6 +108,14 @@ class Phase:
         """Restart files that it writes while it runs: a and b in turn, c where it was asked to end."""
         name = SHEAR_RESTART if self.name == SHEAR else self.restart
         return tuple(f"{name}.{letter}" for letter in "abc") if self.host == LAMMPS else ()
+
+    @property
+    def listens(self) -> bool:
+        """Whether the engine, by its log, has come to where its deck makes it listen to the signal that asks it to end."""
+        try:
+            return _LISTENS.search(self.log.read_bytes()) is not None
+        except OSError:
+            return False
 
     def displacement(self) -> float:
         """Shear displacement (mm) reached so far, from the last whole row of shear.dat; 0 when there is none."""
