@@ -15,12 +15,13 @@ from pathlib import Path
 
 import pytest
 import synthetic
+from shearbox_tools import campaign
 from shearbox_tools.engine import Engine
 from shearbox_tools.errors import InputError, ShearboxError
 from shearbox_tools.files import DUMPS, write_text
 from shearbox_tools.forecast import Forecast
 from shearbox_tools.lock import locked
-from shearbox_tools.models import find_model
+from shearbox_tools.models import INPUT, find_model
 from shearbox_tools.phases import Phase, all_phases, left_to_do, rows_of_shear, steps_between_frames
 from shearbox_tools.readers import BED, read_shear
 from shearbox_tools.repair import make_ready
@@ -28,6 +29,7 @@ from shearbox_tools.request import Request, check_folder, open_folder, read_reco
 from shearbox_tools.restarts import is_whole, step_of
 from shearbox_tools.results import read_results
 from shearbox_tools.seals import Seal, look_at, refuse_altered, seal
+from shearbox_tools.specimens import Run
 
 ROWS = rows_of_shear()
 EVERY = synthetic.STEPS_PER_ROW
@@ -215,6 +217,44 @@ def test_damage_to_what_a_stopped_phase_left(
         damage(stopped.folder / name)
     assert state(stopped) == taken
     assert not any((stopped.folder / name).exists() for name in names if name[-1] in "ab" and name[-1] != taken[0])
+
+
+@pytest.mark.parametrize("name", DUMPS)
+def test_a_stopped_phase_whose_frames_were_removed_is_neither_gone_on_with_nor_thrown_away(
+    stopped: Phase, name: str
+) -> None:
+    (stopped.folder / name).unlink()
+    kept = {path.name for path in stopped.folder.iterdir()}
+    with pytest.raises(
+        ShearboxError, match=rf"{name} of a test that is not finished.*remove shear.restart.a, shear.restart.b$"
+    ):
+        begin_again(stopped)
+    assert {path.name for path in stopped.folder.iterdir()} == kept
+    for letter in "ab":
+        (stopped.folder / f"shear.restart.{letter}").unlink()
+    begin_again(stopped)
+    assert state(stopped) == (None, None)
+
+
+def begin_again(shear: Phase) -> None:
+    """As the command does it, before an engine is started."""
+    campaign._left_to_do(Run(shear.folder.parent, REQUEST))
+
+
+@pytest.mark.parametrize("which, names", enumerate((["packed.restart.draft"], ["consolidated.restart.draft"],
+                                                    ["shear.restart.draft", "shear.whole"])))  # fmt: skip
+def test_half_written_files_of_an_engine_that_was_killed_go(folder: Path, which: int, names: list[str]) -> None:
+    """The decks write these, to rename them when they are whole."""
+    phase = all_phases(folder, REQUEST)[which]
+    for name in names:
+        (phase.folder / name).write_bytes(b"half")
+    make_ready(phase)
+    assert not any((phase.folder / name).exists() for name in names)
+    decks = [INPUT / "shear.in"] if phase.name == SHEAR else [INPUT / "stage.in", INPUT / "rest.in"]
+    text = "".join(deck.read_text(encoding="utf-8") for deck in decks).replace(
+        "${product}", phase.restart.split(".")[0]
+    )
+    assert all(name in text for name in names)
 
 
 @pytest.mark.parametrize("rows, taken", [(107, ("a", 96)), (96, ("a", 96)), (95, ("b", 80)), (79, (None, None))])

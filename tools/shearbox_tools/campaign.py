@@ -16,7 +16,7 @@ from .engine import LEAST_FREE_BYTES, Engine, Failure, explain_failure, free_byt
 from .errors import ShearboxError
 from .files import TIMINGS, sync, write_json
 from .phases import SHEAR, Phase, all_phases, left_to_do
-from .repair import make_ready
+from .repair import make_ready, refuse_lost_frames
 from .restarts import step_of
 from .seals import Seal, look_at, seal
 from .specimens import Run
@@ -184,6 +184,7 @@ class Campaign:
 def _left_to_do(run: Run) -> list[Chain]:
     """What can begin at once: the packing, or if there is one, what each stress lacks."""
     for phase in all_phases(run.folder, run.request):
+        refuse_lost_frames(phase)
         if look_at(phase.folder / phase.product) is Seal.UNKNOWN and phase.ended:
             _seal(phase)  # the program that started its engine was killed
     pack, left = left_to_do(run.folder, run.request)

@@ -110,6 +110,11 @@ class Phase:
         return tuple(f"{name}.{letter}" for letter in "abc") if self.host == LAMMPS else ()
 
     @property
+    def drafts(self) -> tuple[str, ...]:
+        """What an engine that was killed leaves half written."""
+        return (f"{SHEAR_RESTART}.draft", "shear.whole") if self.name == SHEAR else (f"{self.restart}.draft",)
+
+    @property
     def listens(self) -> bool:
         """Whether the engine, by its log, has come to where its deck makes it listen to the signal that asks it to end."""
         try:

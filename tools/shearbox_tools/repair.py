@@ -18,6 +18,7 @@ def make_ready(phase: Phase) -> tuple[Phase, list[str]]:
     Of the restart files that are whole the latest is taken which table and dumps of a shear phase reach, too: a power cut may lose what
     was written to them last. They are cut off behind it, so nothing is in them twice. Without one all is written anew.
     """
+    _remove(phase, list(phase.drafts))
     steps, notes = _steps_of_checkpoints(phase)
     for name, step in sorted(steps.items(), key=lambda item: -item[1]):
         try:
@@ -32,9 +33,20 @@ def make_ready(phase: Phase) -> tuple[Phase, list[str]]:
         for dump in dumps:
             dump.cut(frame)
         return replace(phase, variables=phase.variables | {"from": name[-1]}), notes
-    _remove(phase, [phase.product, *phase.frames, phase.restart, *phase.checkpoints])
+    _remove(phase, [*phase.checkpoints, phase.product, *phase.frames, phase.restart])
     phase.unseal()
     return phase, notes
+
+
+def refuse_lost_frames(phase: Phase) -> None:
+    """Raise ShearboxError for a test that could go on, had its dumps not been removed: to begin it anew may cost days."""
+    lost = [name for name in phase.frames if not (phase.folder / name).exists()]
+    states = [name for name in phase.checkpoints if (phase.folder / name).exists()]
+    if lost and states:
+        raise ShearboxError(
+            f"{phase.folder}: {', '.join(lost)} of a test that is not finished are gone, and it cannot go on without. Put back a "
+            f"copy of them; or, for the test to begin anew, remove {', '.join(states)}"
+        )
 
 
 def _steps_of_checkpoints(phase: Phase) -> tuple[dict[str, int], list[str]]:
