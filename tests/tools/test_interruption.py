@@ -25,7 +25,7 @@ from shearbox_tools.models import INPUT, find_model
 from shearbox_tools.phases import Phase, all_phases, left_to_do, rows_of_shear, steps_between_frames
 from shearbox_tools.readers import BED, read_shear
 from shearbox_tools.repair import make_ready
-from shearbox_tools.request import Request, check_folder, open_folder, read_record
+from shearbox_tools.request import Request, check_folder, open_folder, read_record, recorded
 from shearbox_tools.restarts import is_whole, step_of
 from shearbox_tools.results import read_results
 from shearbox_tools.seals import Seal, look_at, refuse_altered, seal
@@ -377,6 +377,21 @@ def test_a_record_that_is_lost_or_damaged_says_what_to_do(folder: Path) -> None:
     path.unlink()
     with pytest.raises(InputError, match="run.json is lost.* Put back a copy of it"):
         check_folder(folder, REQUEST)
+
+
+def test_a_run_goes_on_where_shearbox_has_moved(folder: Path) -> None:
+    """And the model is that of the record, whatever the decks say now: here they have another width."""
+    path = folder / "run.json"
+    record = json.loads(path.read_text(encoding="utf-8"))
+    record["model_file"] = f"/gone/input/models/{MODEL.path.name}"
+    record["identity"]["model width"] = 0.11
+    path.write_text(json.dumps(record), encoding="utf-8")
+    model = recorded(folder).model
+    assert (model.path, model.width, model.half_height) == (MODEL.path, 0.11, MODEL.half_height)
+    record["identity"]["model"], record["model_file"] = "own", "/gone/own.in"
+    path.write_text(json.dumps(record), encoding="utf-8")
+    with pytest.raises(InputError, match="the model of this run cannot be read: /gone/own.in: No such file"):
+        recorded(folder)
 
 
 @pytest.mark.parametrize("lost", ["identity", "stresses", "model width", "parameters"])

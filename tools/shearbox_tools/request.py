@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 
 from .errors import InputError, ShearboxError
 from .files import DRAFT, LOCK, PACKED, RECORD, TIMINGS, write_json, write_text
-from .models import PARAMETERS, SUFFIX, Model, find_model, read_variables
+from .models import INPUT, PARAMETERS, SUFFIX, Model, find_model, read_variables
 from .parameters import canonical, of_model, parameters
 from .presets import HOSTS, LAMMPS, STRESSES
 
@@ -123,8 +123,7 @@ def recorded(folder: Path) -> Request:
     """What the run in a folder was asked for: the model as it was, whatever its file and parameters.in say now."""
     record = read_record(folder)
     identity = record["identity"]
-    own = folder / Path(record["model_file"]).name  # of a model that was made of its name
-    file = str(own) if own.is_file() else record["model_file"]
+    file = _model_file(folder, record)
     try:
         model = find_model(file)
     except InputError as error:
@@ -148,6 +147,13 @@ def recorded(folder: Path) -> Request:
         settings=settings,
         host=identity.get("host", LAMMPS),
     )
+
+
+def _model_file(folder: Path, record: dict[str, Any]) -> str:
+    """In the folder of the run if the model was made of its name, else where it was; that of the decks if Shearbox has moved since."""
+    there = Path(record["model_file"])
+    places = (folder / there.name, there, INPUT / "models" / (record["identity"]["model"] + SUFFIX))
+    return str(next((place for place in places if place.is_file()), record["model_file"]))
 
 
 def read_record(folder: Path) -> dict[str, Any]:
