@@ -167,7 +167,10 @@ def test_a_dry_run_tells_of_all(folder):
 REFUSED = [
     (["--seeds", "1", "2", "1"], "--seeds 1 2 1: a seed is named twice"),
     (["--seeds", "0"], "--seeds 0: 1 to 200 specimens"),
-    (["--seeds", "1000"], "--seeds 1000: 1 to 200 specimens"),
+    (["--seeds", "123456789"],
+     "--seeds 123456789: 1 to 200 specimens are expected; --seed 123456789 is one specimen with that seed"),
+    (["--seeds", "1-1000000000"], "--seeds 1-1000000000: 1 to 200 specimens are expected"),
+    (["--seeds", "1-" + 30 * "9"], "9: 1 to 200 specimens are expected"),
     (["--seeds", "0", "1"], "--seed 0: 1 to 2147483647"),
     (["--seeds", "2", "--seed", "1"], "--seeds: --seed is given, too"),
     (["--independent"], "--independent: it is of the specimens of --seeds"),

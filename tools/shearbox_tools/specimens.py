@@ -52,11 +52,13 @@ def read_seeds(given: list[int | range], independent: bool, stresses: Iterable[f
     """One number is how many, from 1 on; several, or ranges, are the seeds themselves. Refuses what cannot be meant."""
     text = f"--seeds {' '.join(map(_as_given, given))}"
     ranges = [one if isinstance(one, range) else range(one, one + 1) for one in given]
-    seeds = [seed for some in ranges for seed in some]
+    hint = ""
     if len(given) == 1 and isinstance(given[0], int):
-        seeds = list(range(1, given[0] + 1))
-    if not 1 <= len(seeds) <= MOST_SEEDS:
-        raise InputError(f"{text}: 1 to {MOST_SEEDS} specimens are expected")
+        ranges, hint = [range(1, given[0] + 1)], f"; --seed {given[0]} is one specimen with that seed"
+    count = sum(max(0, some.stop - some.start) for some in ranges)  # before a list of them could fill the memory
+    if not 1 <= count <= MOST_SEEDS:
+        raise InputError(f"{text}: 1 to {MOST_SEEDS} specimens are expected{hint * (count > 0)}")
+    seeds = [seed for some in ranges for seed in some]
     if len(set(seeds)) < len(seeds):
         raise InputError(f"{text}: a seed is named twice")
     if independent and not all(1 <= seed <= LARGEST_SEED for seed in seeds):
