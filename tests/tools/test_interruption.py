@@ -11,6 +11,7 @@ import struct
 import subprocess
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -315,6 +316,23 @@ def test_a_packing_that_has_begun_is_partly_done(folder: Path) -> None:
         shares.append(Forecast(folder, REQUEST).share_done(packing))
     assert shares[0] == 0 and shares == sorted(set(shares)) and shares[-1] < 1, "a job that goes on has done something"
     assert shares[2] == pytest.approx(10 * shares[1])
+
+
+def test_shear_is_done_as_far_as_it_can_be_gone_on_from(stopped: Phase) -> None:
+    """Row 96 of 800: those behind it are written again, and so are all where there is no restart file."""
+    folder = stopped.folder.parent
+    assert Forecast(folder, REQUEST).share_done(stopped) == pytest.approx(96 / ROWS, abs=1 / ROWS)
+    for name in stopped.checkpoints:
+        (stopped.folder / name).unlink(missing_ok=True)
+    assert Forecast(folder, REQUEST).share_done(stopped) == 0
+
+
+def test_of_liggghts_nothing_is_done_before_all_is(stopped: Phase) -> None:
+    """Its phases begin anew: jobs that go by what is done would do so for ever."""
+    forecast = Forecast(stopped.folder.parent, replace(REQUEST, host="liggghts"))
+    shear = forecast.phases[-1]
+    assert shear.displacement() > 1 and forecast.share_done(shear) == 0
+    assert forecast.left(shear) == forecast.work(shear)
 
 
 def test_a_restart_file_is_known_by_its_ends(tmp_path: Path) -> None:

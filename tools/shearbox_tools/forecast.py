@@ -16,6 +16,7 @@ from .logs import read_logs
 from .models import PARAMETERS, read_variables
 from .numerals import number
 from .phases import CONSOLIDATE, PACK, SHEAR, Phase, disk_need, frames_of, packing, shearing
+from .readers import last_value
 from .request import Request
 from .restarts import step_of
 
@@ -103,12 +104,14 @@ class Forecast:
         return self._discs * (self._steps(phase) * pace / self._ranks + frames * SECONDS_PER_DISC_AND_FRAME)
 
     def share_done(self, phase: Phase) -> float:
-        """The part of a phase that is done, from 0 to 1; of one that ends when the grains are at rest, about."""
+        """The part of a phase that is done, from 0 to 1, up to its latest restart file: what is behind that is done again. Of one that
+        ends when the grains are at rest, about."""
         if phase.done:
             return 1.0
-        if phase.name == SHEAR:
-            return min(1.0, phase.displacement() / self._request.travel)
         reached = max((step_of(phase.folder / name) or 0 for name in phase.checkpoints), default=0)
+        if phase.name == SHEAR:
+            written = last_value(phase.folder / phase.product, "step") or math.inf
+            return min(1.0, phase.displacement() / self._request.travel) * min(1.0, reached / written)
         begin = step_of(self._packing.folder / self._packing.restart) or 0 if phase.name == CONSOLIDATE else 0
         share = max(0, reached - begin) / self._steps(phase)
         return (
