@@ -128,6 +128,37 @@ def test_steps_of_packing_are_those_that_were_measured(tmp_path):
         assert found and steps / 2 < int(found[1].replace(",", "")) < 2 * steps, name
 
 
+@pytest.mark.parametrize(
+    "name, settings, megabytes",
+    [
+        ("TypeA_10x5_4-8_1-circle_350", {}, 14.0),
+        ("TypeA_10x5_4-8_1-circle_350", {"sides": "discs", "wall_disc": "0.2", "side_pitch": "0.25"}, 34.3),
+        ("TypeB_15x5_2-4_1-circle_2250", {}, 80.4),
+    ],
+)
+def test_disk_is_what_dumps_took(tmp_path, name, settings, megabytes):
+    """Of one test, as it was written by the engine; in the second there are six times as many discs of walls as grains."""
+    asked = replace(request(name), stresses=(100.0,), settings=settings)
+    assert Forecast(tmp_path, asked).bytes == pytest.approx(1e6 * megabytes, rel=0.15)
+
+
+def test_disk_is_needed_for_what_is_left(tmp_path):
+    """One stress is done, the other half: of its 800 rows there is a restart file of row 400. When that is stopped, its frames are
+    read in full."""
+    whole = Forecast(tmp_path, request())
+    assert whole.bytes == whole.bytes_of_frames > 0
+    one = whole.bytes / 2
+    done, half = (shearing(tmp_path, request(), sigma)[1] for sigma in (100, 200))
+    done.folder.mkdir()
+    finish(done)
+    assert whole.bytes == whole.bytes_of_frames == pytest.approx(one)
+    half.folder.mkdir()
+    synthetic.write_shear(half.folder / half.product, synthetic.curves(200, 8), slice(0, 400))
+    synthetic.write_restart(half.folder / "shear.restart.a", 400 * synthetic.STEPS_PER_ROW)
+    assert whole.bytes == pytest.approx(one / 2, rel=0.01) and whole.bytes_of_frames == pytest.approx(one)
+    assert Forecast(tmp_path, replace(request(), host="liggghts")).bytes == 0, "it writes no frames"
+
+
 def test_frames_that_are_asked_for(tmp_path):
     """Of the disk and the time that frames take, 21 of 101; the interval of frames is a whole number of rows."""
     few, usual = (Forecast(tmp_path, replace(request(), settings=s)) for s in ({"frames": "20"}, {}))

@@ -10,7 +10,7 @@ import synthetic
 from shearbox_tools.checks import check
 from shearbox_tools.errors import InputError
 from shearbox_tools.models import INPUT, find_model, read_model
-from shearbox_tools.phases import disk_need, packing, shearing
+from shearbox_tools.phases import packing, shearing
 from shearbox_tools.readers import BED, read_row
 from shearbox_tools.request import Request
 
@@ -132,25 +132,8 @@ def test_a_model_whose_own_name_has_a_blank_is_refused(tmp_path):
         packing(tmp_path / "results", Request(read_model(path), (100.0,)))
 
 
-def test_without_frames_no_disk_is_needed_for_them(tmp_path):
-    assert disk_need(replace(request(), host="liggghts"), tmp_path) == 0
-
-
 def test_a_half_travels_as_far_as_its_flanges_are_long():
     """The decks say how long, or the command line."""
     check(request())
     with pytest.raises(InputError, match="--travel 8: 0.1 to 5 mm, 0.05 of the box's width"):
         check(replace(request(), settings={"flanges": "0.05"}))
-
-
-def test_disk_need_grows_with_what_is_left(tmp_path):
-    small, large = disk_need(request(), tmp_path), disk_need(request("TypeD_30x10_2-4_1-circle_9000"), tmp_path)
-    assert 20e6 < small < 100e6 < large < 2e9
-    place = tmp_path / "100"
-    place.mkdir()
-    (place / "consolidated.csv").write_text(TABLE, encoding="utf-8")
-    synthetic.write_shear(place / "shear.dat", synthetic.curves(100, 8))
-    for phase in shearing(tmp_path, request(), 100):
-        phase.log.write_text(GOODBYE, encoding="utf-8")
-        synthetic.write_restart(place / phase.restart, 7)
-    assert disk_need(request(), tmp_path) == pytest.approx(small / 2, abs=1)

@@ -10,12 +10,13 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
+from .disk import bytes_of_frames
 from .display import about, amount, duration
 from .hosts import HOSTS
 from .logs import read_logs
 from .models import PARAMETERS, read_variables
 from .numerals import number
-from .phases import CONSOLIDATE, PACK, SHEAR, Phase, disk_need, frames_of, packing, shearing
+from .phases import CONSOLIDATE, PACK, SHEAR, Phase, frames_of, packing, shearing
 from .readers import last_value
 from .request import Request
 from .restarts import step_of
@@ -32,7 +33,6 @@ class Forecast:
     written."""
 
     def __init__(self, folder: Path, request: Request, ranks: int = 1) -> None:
-        self._folder = folder
         self._request = request
         self._ranks = ranks
         self._packing = packing(folder, request)
@@ -72,9 +72,14 @@ class Forecast:
         return self._slowness * SECONDS[SHEAR]
 
     @property
-    def bytes(self) -> int:
-        """That will be written."""
-        return disk_need(self._request, self._folder)
+    def bytes(self) -> float:
+        """That will still be written."""
+        return sum((1 - self.share_done(phase)) * size for phase, size in self._frames)
+
+    @property
+    def bytes_of_frames(self) -> float:
+        """Of tests that are not done, as large as they will be in the end."""
+        return sum(size for phase, size in self._frames if not phase.done)
 
     @property
     def tests(self) -> int:
@@ -121,6 +126,11 @@ class Forecast:
     def left(self, phase: Phase) -> float:
         """Time still to go."""
         return (1 - self.share_done(phase)) * self.work(phase)
+
+    @property
+    def _frames(self) -> list[tuple[Phase, float]]:
+        """Phases that write frames, and the bytes that these take."""
+        return [(phase, bytes_of_frames(self._request)) for phase in self._shearing if phase.frames]
 
     def _what(self, phase: Phase) -> str:
         if phase.done:

@@ -68,7 +68,7 @@ class Layout:
         rows = [
             one.work(phase) for some in self.forecasts for one in some for phase in one.phases if phase.name == SHEAR
         ]
-        sealing = max(sum(one.bytes for one in some) for some in self.forecasts) / BYTES_SEALED
+        sealing = max(sum(one.bytes_of_frames for one in some) for some in self.forecasts) / BYTES_SEALED
         return math.ceil(LEAST_NOTICE + 2 * TIMES * max(rows) / rows_of_shear() + sealing)
 
     @property
@@ -80,7 +80,7 @@ class Layout:
     @property
     def report_minutes(self) -> int:
         """That the report may take."""
-        written = sum(one.bytes for some in self.forecasts for one in some)
+        written = sum(one.bytes_of_frames for some in self.forecasts for one in some)
         return _rounded_up(REPORT_MINUTES + written / BYTES_REPORTED / 60)
 
 

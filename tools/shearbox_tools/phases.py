@@ -22,7 +22,6 @@ from .seals import Seal, look_at, seal, unseal
 
 _LISTENS = re.compile(rb"^compute\s+\w+\s+all\s+cdem/signal\b", re.MULTILINE)  # not a comment on it
 DECKS = PACK, CONSOLIDATE, SHEAR = "pack", "consolidate", "shear"
-BYTES_PER_FRAME_AND_DISC = 400  # of the four dumps together; the walls' share is in it
 
 
 @dataclass(frozen=True)
@@ -188,13 +187,6 @@ def frames_of(settings: Mapping[str, str]) -> int:
 def steps_between_frames(settings: Mapping[str, str], steps_between_rows: int) -> int:
     """As shear.in has it."""
     return steps_between_rows * rows_of_shear() // frames_of(settings)
-
-
-def disk_need(request: Request, folder: Path) -> int:
-    """Bytes of frames that the phases not yet done will write, roughly."""
-    frames = 1 + frames_of(request.settings)
-    left = [chain for chain in left_to_do(folder, request)[1] if chain[-1].frames]
-    return int(len(left) * request.model.ngrains * request.model.discs * BYTES_PER_FRAME_AND_DISC * frames)
 
 
 def _common(request: Request, place: Path) -> dict[str, str]:
