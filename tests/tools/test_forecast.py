@@ -129,6 +129,24 @@ def test_steps_of_packing_are_those_that_were_measured(tmp_path):
 
 
 @pytest.mark.parametrize(
+    "settings, steps",
+    [
+        ({}, 24_000),
+        ({"kn": "1e9", "ks": "2.5e8"}, 72_000),
+        ({"kn": "1e11", "ks": "2.5e10"}, 915_000),
+        ({"width": "1", "half_height": ".5", "dmin": ".04", "dmax": ".08"}, 95_000),  # held by dt_max
+        ({"width": "10", "half_height": "5", "dmin": ".4", "dmax": ".8"}, 800_000),
+    ],
+)
+def test_steps_of_packing_where_the_time_step_is_not_as_usual(tmp_path, settings, steps):
+    """As the engine took them, within the factor of 2 that is told."""
+    of_model = {name: value for name, value in settings.items() if not name.startswith("k")}
+    asked = replace(request(), model=find_model(request().model.name, of_model), settings=settings)
+    found = re.search(r"about ([\d,]+) steps", Forecast(tmp_path, asked).lines[0])
+    assert found and steps / 2 < int(found[1].replace(",", "")) < 2 * steps
+
+
+@pytest.mark.parametrize(
     "name, settings, megabytes",
     [
         ("TypeA_10x5_4-8_1-circle_350", {}, 14.0),

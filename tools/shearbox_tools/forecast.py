@@ -8,6 +8,7 @@ one machine.
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from .disk import bytes_of_frames
@@ -26,6 +27,8 @@ SECONDS_PER_DISC_AND_FRAME = 18e-6
 BYTES_PER_DISC, BYTES_PER_RANK = 2.6e3, 45e6  # of memory, half of the former for frames (tests/validation/ranks)
 # for each disc of a grain; a high box takes waves longer to cross, and to come to rest
 STEPS_OF_PACKING, STEPS_PER_DIAMETER, STEPS_OF_CONSOLIDATION = 20_000, 250, 10_000
+# with a step smaller than usual, over their ratio: stiff contacts need more, large grains that dt_max holds less
+MORE_STEPS = 0.7
 
 
 class Forecast:
@@ -141,11 +144,12 @@ class Forecast:
 
     def _steps(self, phase: Phase) -> float:
         model = self._request.model
+        if phase.name == SHEAR:
+            return self._request.travel / self._request.speed / self._dt
+        steps = STEPS_OF_CONSOLIDATION
         if phase.name == PACK:
-            return model.discs * (STEPS_OF_PACKING + STEPS_PER_DIAMETER * 2 * model.half_height / model.dmin)
-        if phase.name == CONSOLIDATE:
-            return model.discs * STEPS_OF_CONSOLIDATION
-        return self._request.travel / self._request.speed / self._dt
+            steps = STEPS_OF_PACKING + STEPS_PER_DIAMETER * 2 * model.half_height / model.dmin
+        return model.discs * steps * max(1.0, MORE_STEPS * _usual_step(self._request) / self._dt)
 
     def _recorded_pace(self) -> float | None:
         """Seconds of a core for a disc and step of the packing, if it is done."""
@@ -182,6 +186,13 @@ def time_step(request: Request) -> float:
         return number(request.dt)
     most = number((read_variables(PARAMETERS) | request.settings)["dt_max"])
     return min(0.9 * stability_limit(request), most / math.sqrt(request.stiffness))
+
+
+def _usual_step(request: Request) -> float:
+    """With the stiffness of the decks and no largest step: steps of packing were counted with it."""
+    decks = read_variables(PARAMETERS)
+    usual = request.settings | {name: decks[name] for name in ("kn", "ks")}
+    return 0.9 * stability_limit(replace(request, stiffness=1.0, settings=usual))
 
 
 def stability_limit(request: Request) -> float:
