@@ -3,13 +3,14 @@
 
     import shearbox
 
-    test = shearbox.run("TypeA_10x5_4-8_1-circle_350", "results/first", stress=[100, 200], speed=200)
+    (test,) = shearbox.run("TypeA_10x5_4-8_1-circle_350", "results/first", stress=[100, 200], speed=200)
     print(test.phi_deg, test.peaks())
     test.curve(100).plot(x="displacement_mm", y="tau_kPa")
     test.frame(100, -1)["contacts"]
 
-Stresses are in kPa, lengths of the test in mm, angles in degrees; frames are in SI units. What cannot be done raises
-shearbox.Error, with the reason. Needs python3-pandas, and this folder in PYTHONPATH.
+There is a test for each specimen: one here, eight with seeds=8. Stresses are in kPa, lengths of the test in mm, angles in
+degrees; frames are in SI units. What cannot be done raises shearbox.Error, with the reason. Needs python3-pandas, and this folder
+in PYTHONPATH.
 """
 
 from collections.abc import Callable

@@ -2,7 +2,9 @@
 """`import shearbox`: tests are run and read from a script, as tables."""
 
 import json
+import re
 import signal
+import textwrap
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -23,6 +25,17 @@ def _test(tmp_path_factory: pytest.TempPathFactory) -> shearbox.Test:
     folder = tmp_path_factory.mktemp("python") / "results"
     (test,) = shearbox.run(MODEL, folder, stress=[100, 200], speed=20, set={"phi": 30}, engine=ENGINE)
     return test
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_the_example_of_the_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("shearbox_tools.run.default_program", lambda host: ENGINE)
+    assert shearbox.__doc__
+    example = re.search(r"::\n\n((?:    .*\n|\n)+)", shearbox.__doc__)
+    assert example and "shearbox.run(" in example[1]
+    exec(textwrap.dedent(example[1]), {})
+    assert shearbox.read("results/first").stresses == [100, 200]
 
 
 def test_what_was_asked_for(test: shearbox.Test) -> None:
