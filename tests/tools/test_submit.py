@@ -5,6 +5,7 @@ import os
 import shlex
 import shutil
 import subprocess
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -119,6 +120,21 @@ def _idle(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return said
 
 
+def test_two_that_submit_at_the_same_time_submit_once(tmp_path: Path, idle: Path) -> None:
+    """The batch system takes its time, and knows of the jobs of the first one when that has been told their number. The second is told
+    who is in its way, or which jobs."""
+    begun = tmp_path / "begun"
+    (tmp_path / "programs" / "squeue").write_text(f"#!/bin/sh\nif [ -e {begun} ]; then echo 1 RUNNING None; fi\n")
+    (tmp_path / "programs" / "sbatch").write_text(
+        f'#!/bin/sh\necho sbatch >> "{idle}"\nsleep 1\ntouch {begun}\necho 7\n'
+    )
+    with ThreadPoolExecutor(2) as pool:
+        both = [done.result() for done in [pool.submit(submit, tmp_path / "results") for _ in range(2)]]
+    (failed,) = [done for done in both if done.returncode]
+    assert "is in use by another run" in failed.stderr or "its jobs have not ended: running" in failed.stderr
+    assert idle.read_text(encoding="utf-8").split() == 2 * ["sbatch"], "the tests, and their report"
+
+
 def test_a_copy_of_what_was_submitted_has_no_jobs(tmp_path: Path, idle: Path, capsys: pytest.CaptureFixture) -> None:
     """Those of the first one are neither told nor ended by it."""
     first, copy = tmp_path / "first", tmp_path / "copy"
@@ -140,13 +156,14 @@ def test_the_environment_neither_hides_nor_renames_jobs(
     """What else a user has set for Slurm is kept."""
     for name in ("sbatch", "squeue", "scancel"):
         (tmp_path / "programs" / name).write_text(f'#!/bin/sh\nenv >> "{idle}"\necho 7\n', encoding="utf-8")
-    for name in ("SQUEUE_STATES", "SBATCH_JOB_NAME", "SBATCH_ACCOUNT", "LOGNAME"):
+    hidden = "SQUEUE_STATES", "SBATCH_JOB_NAME", "SBATCH_NO_REQUEUE"
+    for name in (*hidden, "SBATCH_ACCOUNT", "LOGNAME"):
         monkeypatch.setenv(name, "sand")
     SLURM.submit(tmp_path / "jobs" / "tests.sh")
     SLURM.cancel("name")
     said = idle.read_text(encoding="utf-8")
     assert "SBATCH_ACCOUNT=sand" in said
-    assert not {"SQUEUE_STATES=sand", "SBATCH_JOB_NAME=sand"} & set(said.splitlines())
+    assert not {f"{name}=sand" for name in hidden} & set(said.splitlines())
 
 
 def test_jobs_are_those_of_a_folder_however_its_path_is_written(
@@ -246,8 +263,10 @@ def test_a_limit_is_twice_the_estimate_and_ten_minutes_but_none_is_longer_than_a
     assert 60 * layout.minutes == pytest.approx(2 * layout.seconds + 600 + layout.notice, abs=600)
     assert 60 * layout.minutes > 2 * layout.seconds + 600 + layout.notice and layout.minutes % 10 == 0
     assert Layout(specimens(1), Cluster(hours=0.1), None, 1).minutes == 6
-    with pytest.raises(InputError, match="hours = 0.01: a job needs 6. s to end, and must last 3 times as long"):
-        Layout(specimens(1), Cluster(hours=0.01), None, 1)
+    with pytest.raises(
+        InputError, match="^short.toml: hours = 0.01: a job needs 6. s to end, and must last 3 times as long"
+    ):
+        Layout(specimens(1), Cluster(hours=0.01, file=Path("short.toml")), None, 1)
 
 
 def test_what_does_not_fit_on_a_node_is_refused() -> None:
@@ -285,10 +304,16 @@ def test_what_a_file_of_a_cluster_may_not_say(tmp_path: Path, text: str, message
     assert message in str(refused.value)
 
 
-@pytest.mark.parametrize("option", ["--array=1-8%2", "-J mine", "--output=log"])
+@pytest.mark.parametrize("option", ["--array=1-8%2", "-J mine", "--output=log", "--no-requeue", "--requeue"])
 def test_options_that_are_not_the_users(option: str) -> None:
-    with pytest.raises(InputError, match=f"options = '{option}': 'shearbox submit' sets it itself"):
-        SLURM.script(JOB, Cluster(options=("--mem=1G", option)))
+    with pytest.raises(InputError, match=f"^my.toml: options = '{option}': 'shearbox submit' sets it itself"):
+        SLURM.script(JOB, Cluster(options=("--mem=1G", option), file=Path("my.toml")))
+
+
+@pytest.mark.parametrize("option", ["#SBATCH --mem=1G", "mem=1G", ""])
+def test_an_option_that_sbatch_would_take_for_a_comment(option: str) -> None:
+    with pytest.raises(InputError, match=f"options = '{option}': an option of sbatch is expected, such as --mem=1G"):
+        SLURM.script(JOB, Cluster(options=(option,)))
 
 
 def test_a_file_of_a_cluster_that_is_not_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

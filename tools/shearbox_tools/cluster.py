@@ -22,6 +22,7 @@ class Cluster:
     hours: float = 0.0  # that a job may last; 0: as long as it needs
     options: tuple[str, ...] = ()  # of the batch system, a line each
     commands: tuple[str, ...] = ()  # of the shell, before the job's own
+    file: Path = OF_THE_USER  # where all this stands, for messages
 
 
 def read_cluster(path: Path | None) -> Cluster:
@@ -37,13 +38,13 @@ def read_cluster(path: Path | None) -> Cluster:
         raise InputError(f"{path}: {error.strerror}") from error
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: {error}") from error
-    defaults = {field.name: field.default for field in fields(Cluster)}
+    defaults = {field.name: field.default for field in fields(Cluster) if field.name != "file"}
     for name, value in given.items():
         if name not in defaults:
             raise InputError(f"{path}: {name}: {', '.join(defaults)} are expected")
         if problem := _problem(value, defaults[name]):
             raise InputError(f"{path}: {name} = {value!r}: {problem} is expected")
-    return Cluster(**{name: tuple(value) if isinstance(value, list) else value for name, value in given.items()})
+    return Cluster(**{n: tuple(v) if isinstance(v, list) else v for n, v in given.items()}, file=path)
 
 
 def _problem(value: object, default: object) -> str | None:

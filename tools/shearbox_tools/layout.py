@@ -44,7 +44,8 @@ class Layout:
         self._longest = 60 * cluster.hours
         if self._longest and 60 * self._longest < LEAST_NOTICES * self.notice:
             raise InputError(
-                f"hours = {cluster.hours:g}: a job needs {self.notice} s to end, and must last {LEAST_NOTICES} times as long"
+                f"{cluster.file}: hours = {cluster.hours:g}: a job needs {self.notice} s to end, and must last "
+                f"{LEAST_NOTICES} times as long"
             )
 
     @cached_property

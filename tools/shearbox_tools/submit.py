@@ -53,10 +53,10 @@ def submit(options: argparse.Namespace, asked: list[dict[str, Any]]) -> None:
     submitted = {run.folder for run in left}
     done = [str(run.folder.relative_to(out)) for run in runs if run.folder not in submitted]
     record = Jobs(cluster.scheduler, name_of(out), elements, layout.at_a_time, engine.ranks, program, done)
-    _write(out, runs, record, scripts, scheduler)
-    tests = scheduler.submit(_script(out, TESTS))
-    print(f"job {tests}: the tests", flush=True)
-    print(f"job {scheduler.submit(_script(out, REPORT), after=tests)}: the report after them")
+    _refuse_jobs(out, record, scheduler)
+    with opened(out, runs):  # their records are begun; jobs, which may begin at once, lock them by themselves
+        pass
+    _hand_over(out, record, scripts, scheduler)
 
 
 def element(folder: Path, number: int) -> None:
@@ -120,15 +120,22 @@ def _script(out: Path, name: str) -> Path:
     return out / JOBS / f"{name}.sh"
 
 
-def _write(out: Path, runs: list[Run], record: Jobs, scripts: dict[str, str], scheduler: Scheduler) -> None:
-    """Begin the records of all runs and of the jobs, unless there are such jobs already."""
+def _hand_over(out: Path, record: Jobs, scripts: dict[str, str], scheduler: Scheduler) -> None:
+    """Record the jobs and submit them, unless somebody else was faster."""
+    with locked(out / JOBS):
+        _refuse_jobs(out, record, scheduler)
+        record.write(out)
+        for name, script in scripts.items():
+            write_text(_script(out, name), script)
+        tests = scheduler.submit(_script(out, TESTS))
+        print(f"job {tests}: the tests", flush=True)
+        print(f"job {scheduler.submit(_script(out, REPORT), after=tests)}: the report after them")
+
+
+def _refuse_jobs(out: Path, record: Jobs, scheduler: Scheduler) -> None:
+    """Jobs of this folder that have not ended would meet the new ones in it."""
     if states := scheduler.states(record.name):
         raise ShearboxError(
             f"{out}: its jobs have not ended: {', '.join(sorted(set(states.values())))}. 'shearbox status' tells more, "
             "'shearbox cancel' ends them"
         )
-    with opened(out, runs):
-        (out / JOBS).mkdir(exist_ok=True)
-        record.write(out)
-        for name, script in scripts.items():
-            write_text(_script(out, name), script)

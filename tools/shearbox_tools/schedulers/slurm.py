@@ -12,8 +12,10 @@ from . import Job
 
 MINUTES_A_DAY = 24 * 60
 # Options that a script has of its own, and variables of the environment that come before them.
-OURS = ("--array", "-a", "--job-name", "-J", "--output", "-o", "--dependency", "-d", "--signal", "--open-mode")
-VARIABLES = ("SBATCH_ARRAY_INX", "SBATCH_JOB_NAME", "SBATCH_OPEN_MODE", "SBATCH_OUTPUT", "SBATCH_SIGNAL")
+OURS = ("--array", "-a", "--job-name", "-J", "--output", "-o", "--dependency", "-d", "--signal", "--open-mode", "--requeue",
+        "--no-requeue")  # fmt: skip
+VARIABLES = ("SBATCH_ARRAY_INX", "SBATCH_JOB_NAME", "SBATCH_NO_REQUEUE", "SBATCH_OPEN_MODE", "SBATCH_OUTPUT",
+             "SBATCH_SIGNAL")  # fmt: skip
 
 
 class Slurm:
@@ -29,7 +31,11 @@ class Slurm:
         """One shell that becomes the command: it gets the signal (B:) itself, and need not pass it on."""
         for option in cluster.options:
             if option.startswith(OURS):
-                raise InputError(f"options = {option!r}: 'shearbox submit' sets it itself")
+                raise InputError(f"{cluster.file}: options = {option!r}: 'shearbox submit' sets it itself")
+            if not option.startswith("-"):
+                raise InputError(
+                    f"{cluster.file}: options = {option!r}: an option of sbatch is expected, such as --mem=1G"
+                )
         hours, minutes = divmod(job.minutes % MINUTES_A_DAY, 60)
         options = [
             f"--job-name={job.name}",
