@@ -197,7 +197,7 @@ def test_what_is_submitted_again_is_told_with_what_was_done_and_by_its_own_words
     log = folder / "jobs" / "tests_1.log"
     with log.open("a", encoding="utf-8") as stream:
         stream.write("seed_1 shear 100 kPa: done in 4 s\n")
-    monkeypatch.setattr("shearbox_tools.submit.left_to_do", lambda place, request: [place.name != "seed_1"])
+    monkeypatch.setattr("shearbox_tools.submit.all_phases", lambda place, request: Done(place.name == "seed_1").phases)
     given = [MODEL, "--out", str(folder), "--engine", "/bin/true", "--seeds", "2"]
     assert main(["submit", *given]) == 0
     monkeypatch.setattr("shearbox_tools.status.Forecast", lambda place, request: Done(place.name == "seed_1"))

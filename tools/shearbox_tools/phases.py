@@ -71,11 +71,19 @@ class Phase:
 
     @property
     def done(self) -> bool:
-        """Whether it came to the end, its table is as it was then, and so are frames that are still there."""
+        """Whether it came to the end, its table is as it was then, and so, by size and time, are frames that are still there."""
         product = look_at(self.folder / self.product)
         if product is Seal.UNKNOWN:
             return self.ended
-        return self._is_whole() and not any(look_at(self.folder / name) is Seal.ALTERED for name in self.frames)
+        return self._is_whole() and not self._altered_frames(at_once=True)
+
+    @property
+    def intact(self) -> bool:
+        """Whether it is done, and the frames are as they were in every byte: much to read."""
+        return self.done and not self._altered_frames()
+
+    def _altered_frames(self, at_once: bool = False) -> bool:
+        return any(look_at(self.folder / name, at_once) is Seal.ALTERED for name in self.frames)
 
     def _is_whole(self) -> bool:
         """Whether the table is complete; checkpoints are removed after all else."""
@@ -159,7 +167,7 @@ def left_to_do(folder: Path, request: Request) -> tuple[list[Phase], list[list[P
     chains = []
     for sigma in request.stresses:
         consolidate, shear = shearing(folder, request, sigma)
-        left = [] if shear.done else [shear]
+        left = [] if shear.intact else [shear]
         if not consolidate.done or (left and not consolidate.leads_on):
             left.insert(0, consolidate)
         chains.append(left)

@@ -19,7 +19,7 @@ from .forecast import Forecast
 from .jobs import JOBS, REPORT, TESTS, Jobs, name_of, read_jobs
 from .layout import Layout
 from .lock import locked
-from .phases import left_to_do
+from .phases import all_phases
 from .run import carry_out, check_disk, doubts_of, opened, prepare
 from .schedulers import Job, Scheduler, find_scheduler
 from .specimens import Run
@@ -34,7 +34,7 @@ def submit(options: argparse.Namespace, asked: list[dict[str, Any]]) -> None:
     scheduler = find_scheduler(cluster.scheduler)
     out, runs, engine = prepare(options, asked)
     scheduler.check(out)
-    left = [run for run in runs if any(left_to_do(run.folder, run.request))]
+    left = [run for run in runs if not all(phase.done for phase in all_phases(run.folder, run.request))]
     if not left:
         print(f"nothing is left to do in {out}; 'shearbox report' writes its report")
         return
