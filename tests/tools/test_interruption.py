@@ -161,7 +161,12 @@ def test_what_is_done_is_told_without_reading_frames_and_made_sure_of_before_wor
         sums.write_text("".join(re.findall("^[^#].*\n", sums.read_text(encoding="utf-8"), re.M)), encoding="utf-8")
     read: list[str] = []
     digest = seals._digest
-    monkeypatch.setattr(seals, "_digest", lambda path, *state: read.append(path.name) or digest(path, *state))
+
+    def told(path: Path, *state: int) -> str:
+        read.append(path.name)
+        return digest(path, *state)
+
+    monkeypatch.setattr(seals, "_digest", told)
     shear = Forecast(folder, REQUEST).phases[-1]
     assert shear.done and (not set(DUMPS) & set(read)) == (sealed == "now")
     dump = folder / "100" / "discs.dump"

@@ -146,7 +146,7 @@ class Forecast:
         model = self._request.model
         if phase.name == SHEAR:
             return self._request.travel / self._request.speed / self._dt
-        steps = STEPS_OF_CONSOLIDATION
+        steps: float = STEPS_OF_CONSOLIDATION
         if phase.name == PACK:
             steps = STEPS_OF_PACKING + STEPS_PER_DIAMETER * 2 * model.half_height / model.dmin
         return model.discs * steps * max(1.0, MORE_STEPS * _usual_step(self._request) / self._dt)
