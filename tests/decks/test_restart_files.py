@@ -141,7 +141,7 @@ def test_a_run_may_be_cut_where_the_guard_looks(tmp_path: Path) -> None:
 def test_the_guard_has_the_last_word_beside_fix_deposit(tmp_path: Path) -> None:
     """Which refuses to be told of another step."""
     (tmp_path / "small.txt").write_text(
-        "a disc\n\n1 atoms\n\nCoords\n\n1 0 0 0\n\nTypes\n\n1 1\n\nDiameters\n\n1 0.002\n"
+        "a disc\n\n1 atoms\n\nCoords\n\n1 0 0 0\n\nTypes\n\n1 1\n\nDiameters\n\n1 0.002\n\nMasses\n\n1 8.3e-5\n"
     )
     more = """molecule small small.txt
 region place block -0.026 -0.025 -0.026 -0.025 0 0
