@@ -16,7 +16,7 @@ public:
   GridPlace() = default;
   GridPlace(double px, double py, double step) : x(index(px, step)), y(index(py, step)) {}
 
-  // A bound on the distance to (px, py), at most three steps too large (m); INFINITY if that is no place.
+  // A bound on the distance to (px, py), at most three steps too large (m); INFINITY if that is not finite.
   double moved_to(double px, double py, double step) const {
     if (!std::isfinite(px) || !std::isfinite(py))
       return INFINITY;

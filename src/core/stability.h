@@ -16,7 +16,7 @@
 //
 // The dashpots take the velocity of the half step, carried forward by a share w of half a step. A mode with stiffness
 // k, damping c and mass m is stable while k dt^2 + 2 (1 + w) c dt < 4 m. Local damping raises the force that resists a
-// motion by its A-fold, which is as if the mass were m/(1 + A).
+// motion by a share A of it, which is as if the mass were m/(1 + A).
 #pragma once
 
 #include "declaration.h"

@@ -14,7 +14,8 @@ from typing import Any, NoReturn
 
 from . import __version__
 from .errors import InputError, ShearboxError
-from .presets import COLOURINGS, DENSITIES, FILMS, FORM, FORMATS, HOSTS, LAWS, PACKING_FRICTION, REFERENCE, SPEEDS
+from .presets import COLOURINGS, DENSITIES, FILMS, FORM, FORMATS
+from .run_options import add_what_to_run, asked_by, stress
 
 Commands = argparse._SubParsersAction  # argparse has no public name for it
 DEPENDENCIES = {"numpy": "python3-numpy", "scipy": "python3-scipy", "matplotlib": "python3-matplotlib",
@@ -81,20 +82,6 @@ def make_parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _complete(argument: argparse.Action) -> None:
-    """Let shells offer the names of models and folders for it."""
-
-    def names(prefix: str, **_: Any) -> list[str]:
-        from argcomplete.completers import FilesCompleter
-
-        from .models import model_files
-
-        known = [file.stem for file in model_files()]
-        return [*(name for name in known if name.startswith(prefix)), *FilesCompleter()(prefix)]
-
-    setattr(argument, "completer", names)  # where argcomplete looks for it
-
-
 def _add_json(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="print it as JSON, for scripts")
 
@@ -135,93 +122,14 @@ def _add_run(commands: Commands) -> None:
         "Run again with the same DIR, it goes on where it stopped; further stresses may be added later.",
         argument_default=argparse.SUPPRESS,  # so that 'run DIR' knows what was given
     )
-    _add_what_to_run(run)
+    add_what_to_run(run)
     run.set_defaults(command=_run, jobs=2)
-
-
-def _add_what_to_run(run: argparse.ArgumentParser) -> None:
-    """The options that `run` and `submit` share."""
-    _add_options_of_a_run(run)
-    run.add_argument("--out", metavar="DIR", type=Path, help="folder of the results; needed unless MODEL is one")
-    run.add_argument(
-        "--jobs",
-        metavar="N",
-        type=int,
-        help="phases run at the same time, of all stresses and specimens (default: 2; of 'submit': those of a job, as many "
-        "as a node has cores for, else one for each stress)",
-    )
-    run.add_argument("--only", metavar="NAME", nargs="+", action="extend", help="of a campaign file: these runs alone")
-    run.add_argument("--ranks", metavar="N", type=int, default=1, help="MPI ranks of each phase (default: 1)")
-    run.add_argument(
-        "--engine", metavar="FILE", type=Path, help="engine (default: lmp_cdem of this Shearbox, or liggghts)"
-    )
-    run.add_argument("--dry-run", action="store_true", default=False,
-                     help="only say what would run, about how long, and how much it would write; of 'submit': the scripts")  # fmt: skip
-
-
-def _add_options_of_a_run(run: argparse.ArgumentParser) -> None:
-    """Those that a campaign file may have, too."""
-    model = run.add_argument("model", metavar="MODEL",
-                     help="name of a model, as 'shearbox models' lists them, or of any other box, as 'shearbox model --help' has "
-                     "them; or the path of a model file, NAME.in; or the folder of earlier runs, which go on as they were asked "
-                     "for; or a campaign file, NAME.toml, that asks for many runs, as those of tools/paper_tools/campaigns")  # fmt: skip
-    _complete(model)
-    run.add_argument("--stress", metavar="KPA", type=_stress, nargs="+", action="extend",
-                     help="normal stresses, kPa (default: 100 200 300 400)")  # fmt: skip
-    pace = run.add_mutually_exclusive_group()
-    pace.add_argument("--accuracy", choices=list(SPEEDS),
-                      help="chooses --speed: " + ", ".join(f"{name} {v:g} mm/s" for name, v in SPEEDS.items())
-                      + f" (default: {REFERENCE})")  # fmt: skip
-    pace.add_argument("--speed", metavar="V", type=float, help="shear speed, mm/s (default: that of --accuracy)")
-    run.add_argument(
-        "--travel",
-        metavar="S",
-        type=float,
-        help="shear displacement at the end, mm (default: 8); to go on further later is not possible",
-    )
-    run.add_argument("--seed", metavar="N", type=int, help="seed of the packing (default: 1)")
-    run.add_argument("--seeds", metavar="N", type=_seeds, nargs="+", action="extend",
-                     help="several specimens: one number is how many, with seeds from 1 on; several, or ranges such as 4-8, are "
-                     "their seeds. Each is a run of its own, in DIR/seed_N")  # fmt: skip
-    run.add_argument("--independent", action="store_true",
-                     help="with --seeds: a packing of its own for each stress, in DIR/seed_N_KPAkPa; its seed is 1000000 N + "
-                     "100 KPA")  # fmt: skip
-    run.add_argument("--density", choices=list(DENSITIES),
-                     help=f"chooses {PACKING_FRICTION}, the friction angle while grains are packed: "
-                     + ", ".join(f"{name} {angle:g}°" for name, angle in DENSITIES.items()) + " (default: dense)")  # fmt: skip
-    run.add_argument("--host", choices=HOSTS,
-                     help=f"program that carries the tests out (default: {HOSTS[0]}); LIGGGHTS has discs only, as grains and as "
-                     "sides, so --set sides=discs is needed, and writes no frames")  # fmt: skip
-    run.add_argument("--law", choices=LAWS, help=f"contact law (default: {LAWS[0]})")
-    run.add_argument("--dt", metavar="DT",
-                     help="time step, s (default: auto, from the stability limit of the contacts)")  # fmt: skip
-    run.add_argument("--stiffness", metavar="F", type=float,
-                     help="factor on the stiffness of all contacts: less gives larger overlaps and time steps (default: 1)")  # fmt: skip
-    run.add_argument("--set", metavar="NAME=VALUE", nargs="+", action="extend",
-                     help="another value for a variable of the decks or of the model, such as phi=30; "
-                     "'shearbox parameters' lists them")  # fmt: skip
-
-
-def _stress(text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        hint = " Between stresses are blanks: --stress 100 200" if "," in text else ""
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number of kPa.{hint}") from None
 
 
 def _named_folder(text: str) -> Path:
     """Reports and films call runs by the names of their folders, which . and .. have not."""
     folder = Path(text)
     return folder if folder.name not in ("", "..") else folder.resolve()
-
-
-def _seeds(text: str) -> int | range:
-    first, dash, last = text.partition("-")
-    try:
-        return range(int(first), int(last) + 1) if first and dash else int(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r}: a number, or a range such as 4-8, is expected") from None
 
 
 def _speed(text: str) -> float:
@@ -286,7 +194,7 @@ def _add_export(commands: Commands) -> None:
 
 
 def _add_stress_and_frames(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--stress", metavar="KPA", type=_stress, nargs="+", action="extend", default=[],
+    parser.add_argument("--stress", metavar="KPA", type=stress, nargs="+", action="extend", default=[],
                         help="normal stresses, kPa (default: all there are)")  # fmt: skip
     parser.add_argument("--frames", metavar="FRAMES",
                         help="number of a frame, or FROM:TO:EVERY, TO left out; -1 is the last (default: all)")  # fmt: skip
@@ -317,7 +225,7 @@ def _add_submit(commands: Commands) -> None:
         "fails does not touch the others. Given again, it submits what is left.",
         argument_default=argparse.SUPPRESS,
     )
-    _add_what_to_run(submit)
+    add_what_to_run(submit)
     submit.add_argument("--cluster", metavar="FILE", type=Path,
                         help="what jobs of the cluster need, see examples/cluster (default: ~/.config/shearbox/cluster.toml, "
                         "if there is one)")  # fmt: skip
@@ -367,39 +275,7 @@ def _parameters(options: argparse.Namespace) -> None:
 def _run(options: argparse.Namespace) -> None:
     from .run import run
 
-    run(options, _asked(options))
-
-
-def parse_run(words: list[str]) -> tuple[argparse.Namespace, list[dict[str, Any]]]:
-    """A command line of `run` without the command, and what it asks for."""
-    from .campaign_file import OptionParser
-
-    parser = OptionParser(prog="run", add_help=False, allow_abbrev=False, argument_default=argparse.SUPPRESS)
-    _add_what_to_run(parser)
-    options = parser.parse_args(words)
-    return options, _asked(options)
-
-
-def _asked(options: argparse.Namespace) -> list[dict[str, Any]]:
-    """What is asked for, of each run or ensemble."""
-    from .campaign_file import OptionParser, is_campaign, read_campaign
-
-    if not is_campaign(options.model):
-        if "only" in options:
-            raise InputError(f"--only: it is for campaign files, {options.model} is none")
-        return [_with_speed(options)]
-    parser = OptionParser(add_help=False, allow_abbrev=False, argument_default=argparse.SUPPRESS)
-    _add_options_of_a_run(parser)
-    names = [option.dest for option in parser._actions]  # argparse has no public name for it
-    return read_campaign(
-        Path(options.model), names, lambda words: _with_speed(parser.parse_args(words)), _with_speed(options)
-    )
-
-
-def _with_speed(options: argparse.Namespace) -> dict[str, Any]:
-    """As --accuracy chooses it."""
-    of_accuracy = {"speed": SPEEDS[options.accuracy]} if "accuracy" in options else {}
-    return of_accuracy | vars(options)
+    run(options, asked_by(options))
 
 
 def _report(options: argparse.Namespace) -> None:
@@ -434,7 +310,7 @@ def _film(options: argparse.Namespace) -> None:
 def _submit(options: argparse.Namespace) -> None:
     from .submit import submit
 
-    submit(options, _asked(options))
+    submit(options, asked_by(options))
 
 
 def _status(options: argparse.Namespace) -> None:

@@ -53,12 +53,10 @@ def mean_angle(slopes: np.ndarray) -> Mean:
 
 def mean_strength(strength: EnsembleStrength, freedom: int) -> tuple[Mean, Mean]:
     """phi (degrees) and c (kPa) of a line through independent peaks; errors of an angle are to first order, as above."""
-    slope, high = (np.tan(np.radians(angle)) for angle in (strength.phi_deg.value, strength.phi_deg.high))
-    error = np.degrees((high - slope) / (1 + slope**2)) / student_quantile(freedom)
-    phi, c = strength.phi_deg, strength.c_kPa
-    return _of_line(phi, float(error), freedom), _of_line(
-        c, float(c.high - c.value) / student_quantile(freedom), freedom
-    )
+    phi, c, quantile = strength.phi_deg, strength.c_kPa, student_quantile(freedom)
+    slope, high = (np.tan(np.radians(angle)) for angle in (phi.value, phi.high))
+    error = float(np.degrees((high - slope) / (1 + slope**2)) / quantile)
+    return _of_line(phi, error, freedom), _of_line(c, float(c.high - c.value) / quantile, freedom)
 
 
 def difference(first: Mean, other: Mean, paired: bool) -> Difference:

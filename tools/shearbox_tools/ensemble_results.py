@@ -31,9 +31,8 @@ def _peak_on_plane(shear: Shear) -> tuple[float, float]:
     return shear.plane.sigma_at_peak, shear.plane.peak.value
 
 
-PEAKS: dict[
-    str, Callable[[Shear], tuple[float, float]]
-] = {  # (sigma, tau) in kPa of the polynomial, of the smoothed data, ...
+# (sigma, tau) in kPa: of the polynomial, of the smoothed data, and on the shear plane
+PEAKS: dict[str, Callable[[Shear], tuple[float, float]]] = {
     "lid": lambda shear: (shear.sigma, shear.peak.value),
     "smoothed": lambda shear: (shear.sigma, shear.smoothed.value),
     "plane": _peak_on_plane,

@@ -122,9 +122,8 @@ class Forecast:
             return min(1.0, phase.displacement() / self._request.travel) * min(1.0, reached / written)
         begin = step_of(self._packing.folder / self._packing.restart) or 0 if phase.name == CONSOLIDATE else 0
         share = max(0, reached - begin) / self._steps(phase)
-        return (
-            share if share < 0.9 else 1 - 0.01 / (share - 0.8)
-        )  # beyond what was expected, more and more of it nevertheless
+        # it may need more steps than expected: then the share still grows, and stays below 1
+        return share if share < 0.9 else 1 - 0.01 / (share - 0.8)
 
     def left(self, phase: Phase) -> float:
         """Time still to go."""

@@ -11,9 +11,9 @@ from .forecast import Forecast, memory_of_all, seconds_of_all
 from .phases import SHEAR, rows_of_shear
 from .specimens import Run
 
-TIMES = 2  # that a job may last as long as estimated: estimates are good to a factor of 2
-MORE = 600  # s, for what begins and ends it
-FULL_MINUTES = 10  # to which a limit is rounded up
+SAFETY_FACTOR = 2  # of a job's limit: estimates are good to a factor of 2
+SECONDS_AROUND = 600  # for the beginning and the end of a job
+ROUND_MINUTES = 10  # limits are multiples of it
 LEAST_NOTICE = 60  # s
 BYTES_SEALED = 1e8  # in a second: all dumps are read once when tests are stopped
 REPORT_MINUTES = 30
@@ -24,8 +24,8 @@ LEAST_NOTICES = 3  # in a job, else it would hardly do anything
 class Layout:
     """The elements of a job array: each has the tests of some runs, of which `at_a_time` run on a core for each rank.
 
-    Asked for are tests at a time, or as many as fill a node, if its cores are known, or those of one specimen. What needs
-    several nodes runs alone.
+    `asked` is how many tests run at a time; if it is None, as many as fill a node, or where its cores are not known those of
+    one specimen. What needs several nodes runs alone.
     """
 
     def __init__(self, runs: Sequence[Run], cluster: Cluster, asked: int | None, ranks: int) -> None:
@@ -70,12 +70,12 @@ class Layout:
             one.work(phase) for some in self.forecasts for one in some for phase in one.phases if phase.name == SHEAR
         ]
         sealing = max(sum(one.bytes_of_frames for one in some) for some in self.forecasts) / BYTES_SEALED
-        return math.ceil(LEAST_NOTICE + 2 * TIMES * max(rows) / rows_of_shear() + sealing)
+        return math.ceil(LEAST_NOTICE + 2 * SAFETY_FACTOR * max(rows) / rows_of_shear() + sealing)
 
     @property
     def minutes(self) -> int:
         """That a job may last."""
-        needed = _rounded_up((TIMES * self.seconds + MORE + self.notice) / 60)
+        needed = _rounded_up((SAFETY_FACTOR * self.seconds + SECONDS_AROUND + self.notice) / 60)
         return min(needed, int(self._longest)) if self._longest else needed
 
     @property
@@ -86,4 +86,4 @@ class Layout:
 
 
 def _rounded_up(minutes: float) -> int:
-    return FULL_MINUTES * math.ceil(minutes / FULL_MINUTES)
+    return ROUND_MINUTES * math.ceil(minutes / ROUND_MINUTES)

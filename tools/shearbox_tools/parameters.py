@@ -13,21 +13,9 @@ from .numerals import number, numeral
 
 PACK_DECK, SHEAR_DECK = INPUT / "pack.in", INPUT / "shear.in"
 _OF_THE_MODEL = re.compile(r"^#   (\w+) +(.*\])$")
-_NEEDED = (
-    "seed",
-    "flanges",
-    "kn",
-    "ks",
-    "hn",
-    "hs",
-    "density",
-    "thickness",
-    "stiffness",
-    "law",
-    "dt",
-    "dt_max",
-    "phi_packing",
-)  # by us
+# The tools themselves read these.
+_NEEDED = ("seed", "flanges", "kn", "ks", "hn", "hs", "density", "thickness", "stiffness", "law", "dt", "dt_max",
+           "phi_packing")  # fmt: skip
 # What changes nothing as long as another has this value.
 _IDLE_WHILE = (("phi_wall", "ks_wall", "0"), ("ks_wall", "phi_wall", "0"), ("side_pitch", "sides", "smooth"))
 

@@ -13,27 +13,11 @@ from .numerals import number
 from .ranges import require_ranges
 from .seals import refuse_altered
 
-NEEDED = (
-    "step",
-    "displacement_mm",
-    "tau_kPa",
-    "sigma_kPa",
-    "lid_mm",
-    "trm",
-    "work_J",
-    "residual_J",
-)  # columns of shear.dat that the report is made of; all that there are go into its curves
-
-BED = (
-    "grains",
-    "height_m",
-    "solid_fraction",
-    "solid_fraction_bottom",
-    "solid_fraction_top",
-    "unbalanced",
-    "kinetic_J",
-    "steps",
-)  # columns of packed.csv and consolidated.csv
+# Columns of shear.dat without which there is no report; it puts all others into its curves, too.
+NEEDED = ("step", "displacement_mm", "tau_kPa", "sigma_kPa", "lid_mm", "trm", "work_J", "residual_J")
+# Columns of packed.csv and consolidated.csv.
+BED = ("grains", "height_m", "solid_fraction", "solid_fraction_bottom", "solid_fraction_top", "unbalanced", "kinetic_J",
+       "steps")  # fmt: skip
 
 Columns = dict[str, np.ndarray]
 

@@ -202,12 +202,13 @@ def _damage(record: Any) -> str | None:
     stresses = record.get("stresses")
     if not isinstance(stresses, list) or not stresses:
         return "there are no stresses"
-    wrong = [
-        s
-        for s in stresses
-        if isinstance(s, bool) or not isinstance(s, (int, float)) or not STRESSES[0] <= s <= STRESSES[1]
-    ]
+    wrong = [sigma for sigma in stresses if not _is_stress(sigma)]
     return f"stresses: {wrong[0]!r}" if wrong else None
+
+
+def _is_stress(value: Any) -> bool:
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    return is_number and STRESSES[0] <= value <= STRESSES[1]
 
 
 def _is_finite(value: str | float) -> bool:

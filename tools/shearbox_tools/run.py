@@ -35,17 +35,8 @@ from .specimens import Run, check_out, find_runs, planned, read_seeds
 
 SPARE_BYTES = 100_000_000
 MOST_RUNS = 900  # each keeps a file open, its lock
-BESIDE_A_RUN = (
-    "model",
-    "out",
-    "only",
-    "jobs",
-    "ranks",
-    "engine",
-    "dry_run",
-    "cluster",
-    "command",
-)  # options that are not of it
+# options that say how runs are carried out, not what they are
+BESIDE_A_RUN = ("model", "out", "only", "jobs", "ranks", "engine", "dry_run", "cluster", "command")
 DEFAULT_STRESSES = (100.0, 200.0, 300.0, 400.0)  # kPa
 
 

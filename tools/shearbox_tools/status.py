@@ -17,7 +17,7 @@ POLL_SECONDS = 0.5
 
 
 class Progress:
-    """Of a run: phases, those that are done, and how far shear is that is under way, mm by stress (kPa)."""
+    """Of a run: how many phases it has and how many are done; how far shear has come where it is under way, mm by stress (kPa)."""
 
     def __init__(self, forecast: Forecast) -> None:
         left = [phase for phase in forecast.phases if not phase.done]

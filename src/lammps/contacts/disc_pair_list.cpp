@@ -38,8 +38,8 @@ void DiscPairList::init(const cdem::LawTable &of_run, const ByTypes &by_types, c
   is_of_run = false;
 }
 
-// Beside what the law remembers, the forces of the dashpots at the end of the last step, for the books: at setup the
-// dashpots take other velocities (see PairCDEM::compute), so a continued run would book its first step otherwise.
+// Contacts remember the numbers of the law and, for the books, the forces of the dashpots at the end of the last step.
+// Setup cannot compute these: there the dashpots take other velocities (see PairCDEM::compute).
 void DiscPairList::remember_numbers() {
   static constexpr std::array<const char *, 2 + cdem::MOST_NUMBERS> DASHPOTS{
       "dashpot_n", "dashpot_t", "dashpot_1", "dashpot_2", "dashpot_3",
@@ -105,7 +105,8 @@ void DiscPairList::forces(const LookAtForce &visit) {
     take_back(at_end_of_step);
 }
 
-// Of those contacts that had any: others are new, or their run was not audited.
+// Gives contacts back the forces that their dashpots had before. Where all are 0, the contact is new, or its run was
+// not audited.
 void DiscPairList::take_back(const std::vector<Dashpots> &known) {
   auto next = known.begin();
   pairs.for_each([&](int k) {

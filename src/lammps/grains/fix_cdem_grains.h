@@ -5,11 +5,11 @@
 // grains and is in restart files.
 //
 // It also has the forces of the last step, on grains and walls: those of the contacts, gravity, drag and damping. A run
-// begins with them, since setup cannot compute them again: in a step the dashpots follow other velocities, and a
-// contact that closed within it has its share of it. So runs cut in two give the bits of one. They hold for the scene
-// to which they belong, and only for it: where each atom is, how it moves, mass, size, type and whether it is a grain,
-// the rules (contact law, shapes, gravity, drag, damping, time step) and the periods of the box. If anything of it has
-// changed, a run begins with the forces that setup computes.
+// begins with them, since setup cannot compute them again: in a step the dashpots follow other velocities, and the
+// forces of a contact that closed within it count for a share of it. So runs cut in two give the bits of one. They hold
+// only for the scene to which they belong: where each atom is, how it moves, mass, size, type and whether it is a
+// grain, the rules (contact law, shapes, gravity, drag, damping, time step) and the periods of the box. If anything of
+// it has changed, a run begins with the forces that setup computes.
 #pragma once
 
 #include "core/disc_motion.h"

@@ -169,9 +169,9 @@ void FixCDEMShape::set_mass(int i) const {
 
 double FixCDEMShape::share(int type) const { return shapes[type]->area() / M_PI; }
 
-// Two types with the same mass per circle and other shares of it have two densities: that is no choice of anybody, but
-// what "set density/disc" does. Only grains are looked at: the mass of a wall does not matter. A type has the smallest
-// and the largest value of its atoms.
+// If two types have the same mass per area of their circles, but fill different shares of these, they differ in
+// density: nobody means that, but "set density/disc" does it. Only grains are looked at: the mass of a wall does not
+// matter. Known of each type are the smallest and the largest value of its atoms.
 void FixCDEMShape::refuse_masses_of_circles() const {
   constexpr double ROUNDING = 1e-12;
   const FixCDEMGrains *const grains = FixCDEMGrains::find(lmp);

@@ -214,7 +214,7 @@ void FixCDEMIntegrate::setup_pre_force(int) {
 }
 
 // Other fixes may still add to the forces in their setup(). So the accelerations taken here are for output only; the
-// first step computes them again. Those of the last step are those that it will have.
+// first step computes them again. A run that goes on has those of its last step, which do not change.
 void FixCDEMIntegrate::setup(int) {
   guard.begin(smallest_disc(), step.scene_limit());
   step.begin_run();

@@ -6,9 +6,9 @@
 // fix_modify ID damping A
 //
 // Velocity Verlet for grains in two dimensions, with inertia I = m r^2/2 for a disc, or as fix cdem/shape has it. Atoms
-// outside the group are walls: contacts do not move them. One that no fix moves stands where it is, and the velocity
-// and spin that it has are those of a belt or a roller; as a grain that leaves the group keeps its own, a warning says
-// so. Exactly one fix of this style must exist, and no other integrator may move its grains. Needs dimension 2,
+// outside the group are walls: contacts do not move them. A wall that no fix moves stays where it is, and its velocity
+// and spin act as those of a belt or a roller. Since a grain that leaves the group keeps its own, a warning tells of
+// such walls. Exactly one fix of this style must exist, and no other integrator may move its grains. Needs dimension 2,
 // atom_style sphere and pair_style cdem.
 //
 //   dt check     refuse a time step beyond the stability limit of the scene (default)
@@ -23,8 +23,8 @@
 //   drag         of a medium at rest: force -m v/T on each grain, T > 0 (s, default: none); v is the velocity of the
 //                half step
 //   damping      local damping (Cundall 1987; PFC and YADE have it): of each grain, each component of the force from
-//                contacts, gravity and drag, and the torque, is lowered by its A-fold, 0 <= A < 1, while it drives the
-//                motion (has the sign of the velocity of the half step), and raised by it while it resists. Not a
+//                contacts, gravity and drag, and the torque, is lowered by a share A of it, 0 <= A < 1, while it drives
+//                the motion (has the sign of the velocity of the half step), and raised by it while it resists. Not a
 //                force of nature: for states of equilibrium, in which it vanishes, not for grains that fall or flow
 //                (default 0). Stability limits are lower with it, by 1/sqrt(1 + A) or more: dt auto takes a smaller
 //                step

@@ -143,7 +143,7 @@ void FixCDEMLid::take_acceleration() {
   acceleration = (felt_force - stress * width * thickness) / mass;
 }
 
-// As final_integrate() has it at the end of a step, whose forces are there. At its cap the lid moves uniformly.
+// As final_integrate() ends a step, for the forces that are there. At its cap the lid moves uniformly.
 void FixCDEMLid::start() {
   take_acceleration();
   if (velocity <= -fastest() && acceleration < 0)

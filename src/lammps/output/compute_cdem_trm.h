@@ -10,8 +10,8 @@
 // it spins, below 1 it slides. d theta, dx, dy are the exact increments of each step, so the result does not depend on
 // how often it is output.
 //
-// Per-atom vector: TRM of the grain (no unit); 0 outside the group, for walls, and for a grain that never moved. A
-// variable of style atom takes it for C_ID: c_ID is the scalar there, as of all computes of LAMMPS that have both.
+// Per-atom vector: TRM of the grain (no unit); 0 outside the group, for walls, and for a grain that never moved. In
+// a variable of style atom it is C_ID; c_ID is the scalar there, as for all computes of LAMMPS that have both.
 // Scalar: its mean over the grains of the group that have moved, with the same bits for any number of ranks.
 // The sums are in restart files: after read_restart, make the compute with the same ID before the first run, and the
 // sums continue. To begin anew, use uncompute and make it again. Needs atom_style sphere and fix cdem/integrate.
