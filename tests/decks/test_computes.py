@@ -308,6 +308,33 @@ def test_local_dumps_with_names(tmp_path: Path, ranks: int) -> None:
         assert [line.rstrip() for line in rows[0]] == rows[1]
 
 
+@pytest.mark.parametrize("made", ["cdem/energy", "cdem/average solid", "reduce sum c_rows[2]"])
+def test_a_compute_that_is_made_before_a_run_without_setup(tmp_path: Path, made: str) -> None:
+    """Two runs of 10 steps, of which the second begins anew: what is seen at its start is what was seen at the end of the first."""
+    deck = f"""variable seen equal 0
+    thermo_style custom step v_seen
+    thermo_modify format float %.17g
+    thermo 10
+    run 10
+    compute rows all cdem/discs id y
+    compute made all {made}
+    variable seen equal c_made{"[1]" if "average" in made else ""}
+    run 10 pre no
+    print "end = $(c_made{"[1]" if "average" in made else ""}:%.17g)"
+    run 0
+    """
+    done = free(tmp_path, deck)
+    assert done.thermo["v_seen"][-1] == pytest.approx(done.printed("end"), rel=1e-12) != 0
+
+
+def test_an_audit_may_not_begin_without_setup(tmp_path: Path) -> None:
+    deck = "variable seen equal 0\nthermo_style custom step v_seen\nthermo 10\nrun 10\ncompute e all cdem/energy audit yes\n"
+    deck += "variable seen equal c_e[10]\nrun 10 pre no\n"
+    run(START, tmp_path, discs=FREE, bx="p", by="p")
+    status, output = start(START + FREE_MOTION + deck, tmp_path, bx="p", by="p")
+    assert status != 0 and "Compute cdem/energy e: the first run with an audit must not be 'pre no'" in output
+
+
 def test_names_of_columns_are_those_of_the_compute_there_is(tmp_path: Path) -> None:
     """Made anew between two runs, with other fields under the same ID."""
     anew = "run 10\nuncompute discs\ncompute discs all cdem/discs radius y\nrun 10\n"

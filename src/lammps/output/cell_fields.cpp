@@ -79,7 +79,9 @@ bool CellFields::counts(int i) const {
   return i < atom->nlocal && (atom->mask[i] & group_bit) && !pair->contacts.rows.shape_of_type(atom->type[i]).is_line();
 }
 
-std::vector<std::vector<double>> CellFields::rows(int nx, int ny) const {
+std::vector<std::vector<double>> CellFields::rows(int nx, int ny) {
+  if (!pair) // made after the last run, and the next is one with "pre no"
+    init();
   const std::vector<Contact> contacts = pair->report.contacts();
   const cdem::Rectangle in = within.rectangle();
   cdem::FieldSums sums(in, nx, ny, largest(contacts));

@@ -31,7 +31,7 @@ public:
   int columns() const { return int(fields.size()); }
   std::vector<std::string> names() const { return Shearbox::names_of(fields); }
   // The fields of each cell, cells along x first; the same bits on all ranks, however many there are.
-  std::vector<std::vector<double>> rows(int nx, int ny) const;
+  std::vector<std::vector<double>> rows(int nx, int ny);
 
 private:
   using Contact = ContactReport::Contact;

@@ -76,6 +76,8 @@ std::vector<tagint> ComputeCDEMContacts::members() const {
 
 void ComputeCDEMContacts::compute_local() {
   invoked_local = update->ntimestep;
+  if (!pair) // made after the last run, and the next is one with "pre no"
+    init();
   const std::vector<tagint> group = members();
   const auto in_group = [&](tagint id) { return std::binary_search(group.begin(), group.end(), id); };
   contacts.clear();

@@ -36,6 +36,8 @@ void ComputeCDEMDiscs::init() {
 
 void ComputeCDEMDiscs::compute_local() {
   invoked_local = update->ntimestep;
+  if (!pair) // made after the last run, and the next is one with "pre no"
+    init();
   discs.clear();
   for (const auto &[i, number, x, y, radius] : pair->report.discs()) {
     if (!(atom->mask[i] & groupbit))

@@ -53,6 +53,8 @@ void ComputeCDEMEnergy::init() {
 
 void ComputeCDEMEnergy::compute_vector() {
   invoked_vector = update->ntimestep;
+  if (!pair) // made after the last run, and the next is one with "pre no"
+    init();
   std::array<double, NPARTS> mine{};
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit))

@@ -35,7 +35,7 @@ ComputeCDEMGrid::ComputeCDEMGrid(LAMMPS *lmp, int narg, char **arg, Shearbox::De
 
 void ComputeCDEMGrid::init() { fields.init(); }
 
-void ComputeCDEMGrid::take_rows(Shearbox::LocalArray &table) const {
+void ComputeCDEMGrid::take_rows(Shearbox::LocalArray &table) {
   table.clear();
   for (const std::vector<double> &row : fields.rows(nx, ny))
     for (double value : row)

@@ -39,7 +39,7 @@ public:
 
 private:
   ComputeCDEMGrid(LAMMPS *, int, char **, Shearbox::DeckWords);
-  void take_rows(Shearbox::LocalArray &) const;
+  void take_rows(Shearbox::LocalArray &);
 
   int nx, ny;
   CellFields fields;
