@@ -50,17 +50,16 @@ struct IncrementalAccumulation {
 template <class T> struct Action { T fn, ft, torque; };
 
 // The tangential spring (N), marked (in its last bit, lanes.h) as long as the contact sticks. Apart, the limit is 0 and
-// clears it; in contact, TOUCHING stands for 0 in what is remembered. With dt = 0 a sliding contact stays
+// clears it; in contact, TOUCHING stands for a limit of 0 in what is remembered. With dt = 0 a sliding contact stays
 // sliding: neither value is marked, so |trial| equals the limit.
 template <class T, class Share>
 [[gnu::always_inline]] inline Friction<T> friction(const Contact<T> &c, const Share &share, const NormalSpring<T> &e_n,
                                                    const Material &m, double dt, T &es) {
   const T limit = unmarked(T(m.mu) * e_n.pressing), before = es;
-  const T moved = unmarked(fused(T(-m.ks * dt) * c.step.t, share.spring, before));
-  const T trial = select(magnitude(moved) > T(TOUCHING), moved, T(0));
+  const T trial = unmarked(fused(T(-m.ks * dt) * c.step.t, share.spring, before));
   const auto sticks = magnitude(trial) < limit;
   const T now = select(sticks, trial, with_sign_of(limit, trial));
-  es = select(sticks, marked(select(now == T(0), T(TOUCHING), now)), now + select(c.overlap > T(0), T(TOUCHING), T(0)));
+  es = select(sticks, marked(now), now + select(c.overlap > T(0), T(TOUCHING), T(0)));
   return {now, trial, limit, before, T(m.mu) * e_n.before};
 }
 

@@ -17,9 +17,7 @@ namespace cdem {
 // Whether a pair touched one step ago is remembered, not told from Contact::before: this is rounded, and where the
 // normal turns it is off by an error of third order. So a contact that begins or ends as a step ends would be missed,
 // or be seen twice. Hence the tangential spring of a contact is never 0: where it vanishes, TOUCHING is remembered in
-// its place (N). It is a power of two: it bears no mark, and to add it to any other spring changes no bit. It is no
-// denormal number either, nor is it with a mark: processors may be told to take these for 0, as any library does that
-// was linked with -ffast-math.
+// its place (N). It is a power of two: it bears no mark, and to add it to any other spring changes no bit.
 constexpr double TOUCHING = 0x1p-600;
 
 template <class T> [[gnu::always_inline]] inline auto touched(T es) { return es != T(0); }
@@ -32,7 +30,7 @@ template <class T> [[gnu::always_inline]] inline void settle(T &overlap, T &es, 
   const T round_off = T(1e-12) * radius_sum, least = T(std::numeric_limits<double>::min());
   const auto positive = overlap > T(0), touches = overlap > round_off || (touched(es) && overlap > -round_off);
   overlap = select(touches, select(positive, overlap, least), select(positive, T(0), overlap));
-  es = select(touches && !touched(es), marked(T(TOUCHING)), es);
+  es = select(touches && !touched(es), marked(T(0)), es);
 }
 
 // Weights of a pair's forces, when it was in contact for only a part of the step just made.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "liggghts/accumulation.h"
 
+#include "core/denormals.h"
 #include "core/laws.h"
 #include "core/step_events.h"
 #include "liggghts/fix_integrate.h"
@@ -126,6 +127,7 @@ void Accumulation::check() const {
 }
 
 void Accumulation::init_granular() {
+  cdem::keep_denormals();
   check();
   const char *const who = MODELS[accumulation];
   PropertyRegistry &registry = force->registry;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/denormals.h"
 #include "core/laws.h"
 
 #include <gtest/gtest.h>
@@ -80,10 +81,12 @@ TEST(ContactLaw, DashpotsAreTwiceTheDampingRatioTimesRootOfMassAndStiffness) {
 }
 
 #ifdef __SSE2__
-TEST(ContactLaw, AContactWithoutATangentialSpringIsKnownThoughDenormalNumbersAreTakenForZero) {
+TEST(ContactLaw, AContactWithoutATangentialSpringIsKnownThoughDenormalNumbersWereTakenForZero) {
   const auto seconds_of_three = [](unsigned flags) {
     const unsigned usual = _mm_getcsr();
     _mm_setcsr(usual | flags);
+    EXPECT_TRUE(keep_denormals());
+    EXPECT_FALSE(keep_denormals());
     Scene s(1e-6);
     s.moving(-1e-3, 0);
     s.force(0); // as a run begins

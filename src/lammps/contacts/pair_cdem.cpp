@@ -3,6 +3,7 @@
 
 #include "contacts/fix_cdem_history.h"
 #include "contacts/onlookers.h"
+#include "core/denormals.h"
 #include "grains/fix_cdem_grains.h"
 #include "grains/fix_cdem_shape.h"
 #include "host/compat.h"
@@ -148,6 +149,9 @@ void PairCDEM::check_atoms() const {
 }
 
 void PairCDEM::init_style() {
+  if (cdem::keep_denormals() && comm->me == 0)
+    utils::logmesg(lmp, "Pair style cdem: denormal numbers were taken for 0, as by a library linked with -ffast-math; "
+                        "they are not any more, since contacts remember them\n");
   grains = FixCDEMGrains::find(lmp);
   check_setting();
   find_largest_radii();
