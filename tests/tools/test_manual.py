@@ -63,18 +63,24 @@ def test_formulas_are_formulas(manual: Path) -> None:
     assert page.count("<math") == wanted > 10 and "<msqrt>" in page
 
 
+def measured(folder: Path, pages: list[Path], width: int, what: str) -> list[int]:
+    """Of each page in a frame f so wide (px), what an expression of JavaScript says of it."""
+    frames = "".join(
+        f'<iframe style="width: {width}px; height: 800px; border: 0" src="{page.as_uri()}"></iframe>' for page in pages
+    )
+    look = f"[...document.querySelectorAll('iframe')].map(f => {what})"
+    tell = f"onload = () => {{ const found = JSON.stringify({look}); document.body.textContent = found; }}"
+    harness = folder / "harness.html"
+    harness.write_text(f'<!DOCTYPE html><meta charset="utf-8"><body>{frames}<script>{tell}</script>', encoding="utf-8")
+    found: list[int] = told(folder, harness, "--allow-file-access-from-files")
+    return found
+
+
 @pytest.mark.skipif(bool(MISSING), reason="no chromium: tools/setup --ci installs it")
 def test_on_a_phone(manual: Path, tmp_path: Path) -> None:
     """No page is wider than the screen; what is wide scrolls by itself."""
     pages = sorted(path for path in manual.rglob("*.html") if "_static" not in path.parts)
-    frames = "".join(
-        f'<iframe style="width: 390px; height: 800px; border: 0" src="{page.as_uri()}"></iframe>' for page in pages
-    )
-    look = "[...document.querySelectorAll('iframe')].map(f => f.contentDocument.documentElement.scrollWidth)"
-    tell = f"onload = () => {{ const found = JSON.stringify({look}); document.body.textContent = found; }}"
-    harness = tmp_path / "harness.html"
-    harness.write_text(f'<!DOCTYPE html><meta charset="utf-8"><body>{frames}<script>{tell}</script>', encoding="utf-8")
-    found = told(tmp_path, harness, "--allow-file-access-from-files")
+    found = measured(tmp_path, pages, 390, "f.contentDocument.documentElement.scrollWidth")
     widths = dict(zip((str(page.relative_to(manual)) for page in pages), found))
     assert len(widths) > 25 and {name: width for name, width in widths.items() if width > 390} == {}
 
@@ -83,14 +89,8 @@ def test_on_a_phone(manual: Path, tmp_path: Path) -> None:
 def test_the_code_of_styles_on_a_desk(manual: Path, tmp_path: Path) -> None:
     """The comments of headers are seen whole at 1280 px."""
     pages = sorted((manual / "generated").glob("*cdem*.html"))
-    frames = "".join(
-        f'<iframe style="width: 1280px; height: 800px; border: 0" src="{page.as_uri()}"></iframe>' for page in pages
-    )
     beyond = "Math.max(0, ...[...f.contentDocument.querySelectorAll('pre')].map(p => p.scrollWidth - p.clientWidth))"
-    tell = f"onload = () => {{ document.body.textContent = JSON.stringify([...document.querySelectorAll('iframe')].map(f => {beyond})); }}"
-    harness = tmp_path / "harness.html"
-    harness.write_text(f'<!DOCTYPE html><meta charset="utf-8"><body>{frames}<script>{tell}</script>', encoding="utf-8")
-    cut = dict(zip((page.stem for page in pages), told(tmp_path, harness, "--allow-file-access-from-files")))
+    cut = dict(zip((page.stem for page in pages), measured(tmp_path, pages, 1280, beyond)))
     assert len(cut) > 15 and {name: px for name, px in cut.items() if px} == {}
 
 
