@@ -3,7 +3,6 @@
 
 import html
 import importlib.util
-import json
 import re
 import subprocess
 from pathlib import Path

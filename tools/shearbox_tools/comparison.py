@@ -15,9 +15,7 @@ from .results import Results
 from .shear import Shear
 
 PAIRED = "paired by packing"
-PAIRED_TESTS = (
-    "paired by packing, but for φ and c (Welch)"  # each test has a packing of its own, and a line many of them
-)
+PAIRED_TESTS = "paired by packing, but for φ and c (Welch)"  # each test has its own packing, and a line many of them
 WELCH = "Welch"
 SOME_SHARED = "Welch, though some packings are the same"
 ALONE = "one specimen, so no interval"

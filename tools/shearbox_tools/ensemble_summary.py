@@ -9,7 +9,7 @@ import numpy as np
 
 from . import __version__
 from .ensemble import EnsembleStrength, Estimate
-from .ensemble_results import FEATURES, RELATIONS, Ensemble, estimate
+from .ensemble_results import RELATIONS, Ensemble, estimate
 from .files import PAGE
 from .grouping import LeftOut, settings_of, what_differs, what_is_set
 from .peak import Peak

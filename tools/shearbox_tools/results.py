@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from .doubts import narrow
+from .cautions import narrow
 from .ensemble import Estimate, as_angle, mean_of
 from .errors import ShearboxError
 from .features import proportional

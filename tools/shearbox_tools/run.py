@@ -16,9 +16,9 @@ from rich.console import Console
 
 from .campaign import Campaign
 from .campaign_file import is_campaign
+from .cautions import cautions
 from .checks import check
 from .display import Display, Whole, amount, duration, make_display
-from .doubts import doubts
 from .engine import Engine, free_bytes
 from .errors import InputError, ShearboxError
 from .files import RECORD
@@ -45,7 +45,7 @@ def run(options: argparse.Namespace, asked: list[dict[str, Any]]) -> None:
     out, runs, engine = prepare(options, asked)
     console = Console()
     _note_cores(min(options.jobs, tests_of(runs)), engine.ranks, console)
-    for text in doubts_of(runs):
+    for text in cautions_of(runs):
         _say(console, f"note: {text}")
     forecasts = _forecasts_of(runs, engine)
     if options.dry_run:
@@ -134,9 +134,9 @@ def tests_of(runs: list[Run]) -> int:
     return sum(len(one.request.stresses) for one in runs)
 
 
-def doubts_of(runs: list[Run]) -> list[str]:
+def cautions_of(runs: list[Run]) -> list[str]:
     """Each once."""
-    return list(dict.fromkeys(text for one in runs for text in doubts(one.request)))
+    return list(dict.fromkeys(text for one in runs for text in cautions(one.request)))
 
 
 def carry_out(

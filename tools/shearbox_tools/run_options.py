@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from .errors import InputError
-from .presets import DENSITIES, FORM, HOSTS, LAWS, PACKING_FRICTION, REFERENCE, SPEEDS
+from .presets import DENSITIES, HOSTS, LAWS, PACKING_FRICTION, REFERENCE, SPEEDS
 
 
 def add_what_to_run(run: argparse.ArgumentParser) -> None:

@@ -20,7 +20,7 @@ from .jobs import JOBS, REPORT, TESTS, Jobs, name_of, read_jobs
 from .layout import Layout
 from .lock import locked
 from .phases import all_phases
-from .run import carry_out, check_disk, doubts_of, opened, prepare
+from .run import carry_out, cautions_of, check_disk, opened, prepare
 from .schedulers import Job, Scheduler, find_scheduler
 from .specimens import Run
 
@@ -41,7 +41,7 @@ def submit(options: argparse.Namespace, asked: list[dict[str, Any]]) -> None:
     layout = Layout(left, cluster, given.get("jobs"), engine.ranks)
     scripts = {name: scheduler.script(job, cluster) for name, job in _jobs(out, layout).items()}
     print(_in_words(layout))
-    for text in doubts_of(runs):
+    for text in cautions_of(runs):
         print(f"note: {text}")
     if options.dry_run:
         for name, script in scripts.items():

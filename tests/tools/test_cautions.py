@@ -9,7 +9,7 @@ import pytest
 import synthetic
 from test_run import MODEL, shearbox
 
-from shearbox_tools.doubts import doubts, narrow
+from shearbox_tools.cautions import cautions, narrow
 from shearbox_tools.grains import length_over_largest
 from shearbox_tools.models import all_models, find_model
 from shearbox_tools.request import Request
@@ -22,20 +22,20 @@ def request(**settings: str) -> Request:
 
 def test_a_coefficient_of_friction_in_place_of_an_angle() -> None:
     """tan 26.57 degrees is 0.5, tan 16.70 is 0.3; smooth grains, and angles as sand has them, are meant."""
-    told = doubts(request(phi="0.5", phi_packing="0.3", phi_wall="0", rolling="0.5"))
+    told = cautions(request(phi="0.5", phi_packing="0.3", phi_wall="0", rolling="0.5"))
     assert told == [
         "phi = 0.5 is an angle of 0.5 degrees; a coefficient of friction of 0.5 is phi 26.57",
         "phi_packing = 0.3 is an angle of 0.3 degrees; a coefficient of friction of 0.3 is phi_packing 16.70",
     ]
-    assert doubts(request(phi="1.5")) == doubts(request(phi="27")) == doubts(request()) == []
+    assert cautions(request(phi="1.5")) == cautions(request(phi="27")) == cautions(request()) == []
 
 
 def test_a_step_beyond_the_stability_limit() -> None:
     """2 sqrt(m / (6 k_n + 3 k_s)) without damping, for discs of 4 mm."""
     limit = 2 * math.sqrt(26.5 * math.pi * 0.002**2 / 6.75e8)
     asked = request(hn="0", hs="0")
-    assert doubts(replace(asked, dt=f"{0.99 * limit:.6g}")) == []
-    (told,) = doubts(replace(asked, dt=f"{1.01 * limit:.6g}"))
+    assert cautions(replace(asked, dt=f"{0.99 * limit:.6g}")) == []
+    (told,) = cautions(replace(asked, dt=f"{1.01 * limit:.6g}"))
     assert f"is about {limit:.2g} s" in told and "--dt auto" in told
 
 
@@ -54,7 +54,7 @@ def test_a_box_that_is_narrow_for_its_grains() -> None:
     assert told.startswith("the box is 6.25 of its largest grains wide") and "10 or more (ASTM D3080)" in told
     assert narrow(0.1, 0.008, "triple") == narrow(0.05, 0.008, "single")
     assert narrow(0.08, 0.008, "single") == []
-    assert [model.name for model in all_models() if doubts(Request(model, (100.0,)))] == []
+    assert [model.name for model in all_models() if cautions(Request(model, (100.0,)))] == []
 
 
 def test_the_report_tells_it_too(tmp_path: Path) -> None:

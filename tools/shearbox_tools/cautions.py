@@ -13,7 +13,7 @@ LARGEST_COEFFICIENT = 1.5  # of friction that is taken for one: as an angle in d
 FEWEST_ACROSS = 10  # grains in the width of a box, by ASTM D3080
 
 
-def doubts(request: Request) -> list[str]:
+def cautions(request: Request) -> list[str]:
     """A sentence for each."""
     model = request.model
     return [*_angles(request.settings), *_step(request), *narrow(model.width, model.dmax, model.shape)]
