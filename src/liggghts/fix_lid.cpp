@@ -44,36 +44,23 @@ double FixLid::largest_stiffness() const {
 
 void FixLid::take_acceleration() {
   felt_force = force().y;
-  acceleration = (felt_force - stress * width * thickness) / mass;
+  motion.acceleration = (felt_force - stress * width * thickness) / mass;
 }
 
 void FixLid::setup(int) {
   take_acceleration();
-  set_motion({0, velocity}, {0, acceleration});
+  set_motion({0, motion.velocity}, {0, motion.acceleration});
 }
 
 void FixLid::initial_integrate(int) {
-  velocity += 0.5 * update->dt * acceleration;
-  cap();
-  shift({0, update->dt * velocity}, {0, velocity});
+  motion.begin_step(update->dt, fastest);
+  shift({0, update->dt * motion.velocity}, {0, motion.velocity});
 }
 
 void FixLid::final_integrate() {
   take_acceleration();
-  velocity += 0.5 * update->dt * acceleration;
-  if (cap()) {
-    capped_steps++;
-    acceleration = 0; // at its cap the lid moves uniformly
-  }
-  set_motion({0, velocity}, {0, acceleration});
-}
-
-// Limits the speed downward; true if it was higher.
-bool FixLid::cap() {
-  if (velocity >= -fastest)
-    return false;
-  velocity = -fastest;
-  return true;
+  motion.end_step(update->dt, fastest);
+  set_motion({0, motion.velocity}, {0, motion.acceleration});
 }
 
 double FixLid::lower_face() const {
@@ -93,9 +80,9 @@ double FixLid::compute_vector(int n) {
   case HEIGHT:
     return lower_face();
   case VELOCITY:
-    return velocity;
+    return motion.velocity;
   case CAPPED_STEPS:
-    return capped_steps;
+    return motion.capped_steps;
   default:
     return force().x;
   }

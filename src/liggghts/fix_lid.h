@@ -14,6 +14,7 @@
 // force of the grains on the lid (N).
 #pragma once
 
+#include "core/lid_motion.h"
 #include "liggghts/wall_body.h"
 
 namespace Liggghts {
@@ -34,10 +35,10 @@ private:
   double largest_stiffness() const;
   double lower_face() const;
   void take_acceleration();
-  bool cap();
 
   double stress = 0, width = 0, thickness = 0, given_cap = 0; // 0: the default
-  double mass = 0, fastest = 0, felt_force = 0, velocity = 0, acceleration = 0, capped_steps = 0;
+  double mass = 0, fastest = 0, felt_force = 0;
+  cdem::LidMotion motion; // upward
 };
 
 } // namespace Liggghts

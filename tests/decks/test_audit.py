@@ -95,6 +95,20 @@ def test_gravity_and_drag(tmp_path: Path, ranks: int) -> None:
     assert abs(got["residual"]) < 1e-3 * work
 
 
+@pytest.mark.parametrize("rest", ["", " pre no"], ids=["set up", "goes on"])
+def test_gravity_that_changes_between_runs(tmp_path: Path, ranks: int, rest: str) -> None:
+    """A disc thrown up falls to the right as gravity turns: m g.s of either half, and nothing is missing. A run without
+    setup begins with half a step of the old force, as in all of LAMMPS."""
+    deck = FREE.replace("run ${steps}", "run $(v_steps/2)\nfix_modify move gravity 7 0\nrun $(v_steps/2)" + rest)
+    thrown = Disc(0, 0.01, vy=1)
+    dt, g = 1e-6, 10.0
+    half, late = 1000 * dt, dt / 2 if rest else 0
+    got = books(deck, tmp_path, discs=[thrown], ranks=ranks, body=f"gravity 0 -{g}", dt=dt, steps=2000)
+    up, right = half - g * half**2 / 2, 7 * half * (half / 2 - late)
+    assert got["gravity"] == pytest.approx(thrown.mass * (7 * right - g * up), rel=1e-9)
+    assert abs(got["residual"]) < thrown.mass * (1e-9 + g * late * thrown.vy)
+
+
 def test_work_of_a_moving_wall(tmp_path: Path, law: str, ranks: int) -> None:
     """A wall disc is pushed slowly into a disc that leans on another: two springs in series, undamped. The work is the
     energy of the springs, kn s^2/4 with both overlaps s/2."""
@@ -175,4 +189,14 @@ def test_an_audit_changes_nothing(tmp_path: Path, law: str) -> None:
 def test_errors(tmp_path: Path, arguments: str, message: str) -> None:
     deck = f"include ${{decks}}/start.in\nfix move grains cdem/integrate\ncompute c all cdem/energy {arguments}\nrun 0"
     with pytest.raises(EngineError, match=message):
+        run(deck, tmp_path, discs=[Disc(0, 0)])
+
+
+@pytest.mark.parametrize("then", ["run 1", "run 1 pre no"])
+def test_an_audit_without_its_books_is_refused(tmp_path: Path, then: str) -> None:
+    deck = (
+        "include ${decks}/start.in\nfix move grains cdem/integrate\ncompute c all cdem/energy audit yes\n"
+        f"thermo_style custom step c_c[10]\nrun 1\nunfix CDEM_AUDIT\n{then}"
+    )
+    with pytest.raises(EngineError, match="c: fix CDEM_AUDIT, which has the books of the audit, was removed"):
         run(deck, tmp_path, discs=[Disc(0, 0)])

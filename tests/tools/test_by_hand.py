@@ -65,6 +65,15 @@ def test_stresses_of_a_packing_are_one_specimen(tmp_path):
     assert runs[0].folder == tmp_path
 
 
+def test_a_box_that_is_narrow_for_its_grains_is_told(tmp_path):
+    """As in the report of a run: the lid of the log is 5 cm wide, 6.25 grains of 8 mm."""
+    log = write_test(tmp_path / "a", 100) / "shear.log"
+    assert not any("grains wide" in note for note in read_by_hand([tmp_path / "a"], None, None)[0][0].notes)
+    log.write_text(log.read_text(encoding="utf-8").replace("width 0.1 ", "width 0.05 "), encoding="utf-8")
+    (run,), _ = read_by_hand([tmp_path / "a"], None, None)
+    assert any("the box is 6.25 of its largest grains wide" in note for note in run.notes)
+
+
 def test_tests_of_other_contacts_are_no_specimen_together(tmp_path):
     """Rolling resistance, cohesion, walls, inertia and the friction of packing are told by commands of the logs; where they differ
     tests of a packing are no stresses of one specimen, and packings no ensemble."""

@@ -135,7 +135,7 @@ def read_results(folder: Path) -> Results:
             remarks += [(sigma, text) for text in shear.remarks]
     identity, stresses = record["identity"], record["stresses"]
     model_file = Path(record.get("model_file", ""))
-    notes = said_once(remarks) + _narrow(identity)
+    notes = said_once(remarks) + narrow_box(identity)
     return Results(folder, identity, model_file, stresses, packing, consolidations, shears, problems, notes)
 
 
@@ -192,8 +192,8 @@ def _told(path: Path, read: Callable[[], Value], problems: list[str]) -> Value |
         return None
 
 
-def _narrow(identity: dict[str, Any]) -> list[str]:
-    """What doubts.py says of the width of the box; nothing where the record does not tell the grains."""
+def narrow_box(identity: dict[str, Any]) -> list[str]:
+    """What cautions.py says of the width of the box; nothing where the record does not tell the grains."""
     try:
         return narrow(*(identity[f"model {name}"] for name in ("width", "dmax", "shape")))
     except (LookupError, ValueError, TypeError, AttributeError, ArithmeticError):

@@ -157,6 +157,9 @@ void PairCDEM::init_style() {
   find_largest_radii();
   check_periods();
   Shearbox::request_half_size_list(lmp, this, instance_me);
+  if (history && !Shearbox::fix_by_id(lmp, FixCDEMHistory::ID))
+    error->all(FLERR, "Pair style cdem: fix {}, which has the memory of the contacts, was removed; unfix it never",
+               FixCDEMHistory::ID);
   if (!history)
     history = static_cast<FixCDEMHistory *>(modify->add_fix(std::string(FixCDEMHistory::ID) + " all cdem/history"));
   contacts.init(law.table(), law.coefficients, law.instructions, history, contacts_are_looked_at(lmp));

@@ -10,7 +10,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 struct Saved {
-  static constexpr int VERSION = 1;
+  static constexpr int VERSION = 2;
   FixCDEMAudit::Books books;
   FixCDEMAudit::Opening opening;
   double open;
@@ -24,6 +24,11 @@ FixCDEMAudit::FixCDEMAudit(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
 void FixCDEMAudit::setup(int) {
   if (opener)
     opener->open_books();
+}
+
+void FixCDEMAudit::take_gravity() {
+  if (opener && open)
+    opener->take_gravity();
 }
 
 FixCDEMAudit::Books FixCDEMAudit::all() const {

@@ -17,6 +17,7 @@ public:
   class Opener {
   public:
     virtual void open_books() = 0; // does nothing if they are open
+    virtual void take_gravity() = 0;
     virtual void book_losses() = 0;
 
   protected:
@@ -29,9 +30,10 @@ public:
   struct Books {
     double friction = 0, dashpots = 0, drag = 0, walls = 0;
   };
-  // When the books were opened, over all ranks (J): energy of the grains and springs; sum of m g.x.
+  // Over all ranks: energy of the grains and springs when the books were opened (J); gravity (m/s^2), and the sum of
+  // m g.x that its work is counted from (J).
   struct Opening {
-    double energy = 0, gravity = 0;
+    double energy = 0, gx = 0, gy = 0, gravity = 0;
   };
 
   // The fix of this style, or null if there is no audit.
@@ -44,7 +46,8 @@ public:
   void write_restart(FILE *) override;
   void restart(char *) override;
 
-  Books all() const; // of all ranks
+  Books all() const;   // of all ranks
+  void take_gravity(); // to be called as it may have changed: from then on the work of the new one is counted
 
   Opener *opener = nullptr;
   Books books;

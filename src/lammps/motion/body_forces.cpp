@@ -45,6 +45,8 @@ void BodyForces::tell_grains() {
   std::copy_n(gravity, 2, grains->gravity);
   grains->drag = drag;
   grains->damping = damping;
+  if (auto *const books = FixCDEMAudit::find(lmp)) // `audit` is that of the last run
+    books->take_gravity();
 }
 
 void BodyForces::init() { audit = FixCDEMAudit::find(lmp); }

@@ -92,8 +92,8 @@ void FixCDEMLid::init() {
     if (!input->variable->equalstyle(variable_index))
       error->all(FLERR, "Fix cdem/lid {}: variable {} is not of style equal", id, stress_variable);
   }
-  velocity = group_velocity();
-  set_motion(outward(velocity), outward(acceleration));
+  motion.velocity = group_velocity();
+  set_motion(outward(motion.velocity), outward(motion.acceleration));
 }
 
 WallBody::Vector FixCDEMLid::outward(double amount) const {
@@ -140,15 +140,15 @@ void FixCDEMLid::update_stress() {
 
 void FixCDEMLid::take_acceleration() {
   felt_force = sign * total_force(axis);
-  acceleration = (felt_force - stress * width * thickness) / mass;
+  motion.acceleration = (felt_force - stress * width * thickness) / mass;
 }
 
 // As final_integrate() ends a step, for the forces that are there. At its cap the lid moves uniformly.
 void FixCDEMLid::start() {
   take_acceleration();
-  if (velocity <= -fastest() && acceleration < 0)
-    acceleration = 0;
-  set_motion(outward(velocity), outward(acceleration));
+  if (motion.velocity <= -fastest() && motion.acceleration < 0)
+    motion.acceleration = 0;
+  set_motion(outward(motion.velocity), outward(motion.acceleration));
   book_start(outward(felt_force));
 }
 
@@ -163,33 +163,19 @@ void FixCDEMLid::initial_integrate(int) {
   if (is_first)
     start();
   is_first = false;
-  velocity += 0.5 * update->dt * acceleration;
-  capped = cap();
-  shift(outward(update->dt * velocity), outward(velocity));
+  motion.begin_step(update->dt, fastest());
+  shift(outward(update->dt * motion.velocity), outward(motion.velocity));
 }
 
 void FixCDEMLid::final_integrate() {
   update_stress();
   take_acceleration();
   book_work(outward(felt_force));
-  velocity += 0.5 * update->dt * acceleration;
-  if (cap()) {
-    capped = true;
-    acceleration = 0; // at its cap the lid moves uniformly
-  }
-  capped_steps += capped;
-  set_motion(outward(velocity), outward(acceleration));
+  motion.end_step(update->dt, fastest());
+  set_motion(outward(motion.velocity), outward(motion.acceleration));
 }
 
 double FixCDEMLid::fastest() const { return given_cap > 0 ? given_cap : cap_per_force * stress * width * thickness; }
-
-// Limits the speed inward; true if it was higher.
-bool FixCDEMLid::cap() {
-  if (velocity >= -fastest())
-    return false;
-  velocity = -fastest();
-  return true;
-}
 
 double FixCDEMLid::inner_face() const {
   double innermost = INFINITY, all;
@@ -230,9 +216,9 @@ double FixCDEMLid::compute_vector(int n) {
   case FACE:
     return inner_face();
   case VELOCITY:
-    return velocity;
+    return motion.velocity;
   case CAPPED_STEPS:
-    return capped_steps;
+    return motion.capped_steps;
   default:
     return total_force(axis == X ? Y : X);
   }
@@ -240,11 +226,11 @@ double FixCDEMLid::compute_vector(int n) {
 
 void FixCDEMLid::write_restart(FILE *fp) {
   if (comm->me == 0)
-    Shearbox::write_state(fp, Saved{capped_steps, booked});
+    Shearbox::write_state(fp, Saved{motion.capped_steps, booked});
 }
 
 void FixCDEMLid::restart(char *buf) {
   const auto saved = Shearbox::read_state<Saved>(lmp, style, buf);
-  capped_steps = saved.capped_steps;
+  motion.capped_steps = saved.capped_steps;
   booked = saved.booked;
 }

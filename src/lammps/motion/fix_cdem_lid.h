@@ -34,6 +34,7 @@
 // this one: what it reads of forces and velocities is not known yet as a run begins.
 #pragma once
 
+#include "core/lid_motion.h"
 #include "motion/wall_body.h"
 
 #include <string>
@@ -75,7 +76,6 @@ private:
   void take_acceleration();
   void start();
   double fastest() const;
-  bool cap();
 
   std::string stress_variable; // empty: constant
   int variable_index = -1;
@@ -85,11 +85,10 @@ private:
   double given_cap = 0; // 0: automatic
 
   double mass = 0;
-  double cap_per_force = 0;                              // automatic cap over F
-  double felt_force = 0, velocity = 0, acceleration = 0; // outward
-  bool capped = false;                                   // in this step
-  bool is_first = false;                                 // the next step is the first of a run
-  double capped_steps = 0;                               // in restart files
+  double cap_per_force = 0; // automatic cap over F
+  double felt_force = 0;    // outward
+  cdem::LidMotion motion;   // outward; its capped steps are in restart files
+  bool is_first = false;    // the next step is the first of a run
 };
 
 } // namespace LAMMPS_NS

@@ -46,7 +46,15 @@ ComputeCDEMEnergy::~ComputeCDEMEnergy() {
     modify->delete_fix(FixCDEMAudit::ID); // at the end LAMMPS deletes fixes before computes
 }
 
+void ComputeCDEMEnergy::refuse_lost_audit() const {
+  if (audit && !Shearbox::fix_by_id(lmp, FixCDEMAudit::ID))
+    error->all(FLERR,
+               "Compute cdem/energy {}: fix {}, which has the books of the audit, was removed; uncompute {} first", id,
+               FixCDEMAudit::ID, id);
+}
+
 void ComputeCDEMEnergy::init() {
+  refuse_lost_audit();
   pair = PairCDEM::needed_by(fmt::format("Compute cdem/energy {}", id), lmp);
   grains = FixCDEMGrains::find(lmp);
 }
@@ -55,6 +63,7 @@ void ComputeCDEMEnergy::compute_vector() {
   invoked_vector = update->ntimestep;
   if (!pair) // made after the last run, and the next is one with "pre no"
     init();
+  refuse_lost_audit();
   std::array<double, NPARTS> mine{};
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit))
@@ -81,20 +90,29 @@ ComputeCDEMEnergy::Kinetic ComputeCDEMEnergy::kinetic(int i) const {
 }
 
 ComputeCDEMEnergy::State ComputeCDEMEnergy::state() const {
-  const cdem::StepRule step = grains->step_rule();
   const auto [normal, tangential, added] = pair->report.energy();
-  double mine[4] = {0, normal + tangential + added, tangential, 0}, all[4];
+  double mine[3] = {0, normal + tangential + added, tangential}, all[3];
   for (int i = 0; i < atom->nlocal; i++) {
     if (!grains->is_free(i))
       continue;
     const auto [translation, rotation] = kinetic(i);
     mine[0] += translation + rotation;
+  }
+  MPI_Allreduce(mine, all, 3, MPI_DOUBLE, MPI_SUM, world);
+  return {all[0], all[1], all[2]};
+}
+
+double ComputeCDEMEnergy::work_of_gravity(double gx, double gy) const {
+  double mine = 0, all;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!grains->is_free(i))
+      continue;
     double x[3];
     domain->unmap(atom->x[i], atom->image[i], x);
-    mine[3] += atom->rmass[i] * (step.gx * x[0] + step.gy * x[1]);
+    mine += atom->rmass[i] * (gx * x[0] + gy * x[1]);
   }
-  MPI_Allreduce(mine, all, 4, MPI_DOUBLE, MPI_SUM, world);
-  return {all[0], all[1], all[2], all[3]};
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
 }
 
 void ComputeCDEMEnergy::open_books() {
@@ -105,8 +123,19 @@ void ComputeCDEMEnergy::open_books() {
   const State now = state();
   pair->contacts.book_losses();
   audit->books = {};
-  audit->opening = {now.kinetic + now.springs, now.gravity};
+  const cdem::StepRule step = grains->step_rule();
+  audit->opening = {now.kinetic + now.springs, step.gx, step.gy, work_of_gravity(step.gx, step.gy)};
   audit->open = true;
+}
+
+void ComputeCDEMEnergy::take_gravity() {
+  grains = FixCDEMGrains::find(lmp);
+  const cdem::StepRule step = grains->step_rule();
+  FixCDEMAudit::Opening &from = audit->opening;
+  if (step.gx == from.gx && step.gy == from.gy)
+    return;
+  from.gravity += work_of_gravity(step.gx - from.gx, step.gy - from.gy);
+  from.gx = step.gx, from.gy = step.gy;
 }
 
 void ComputeCDEMEnergy::book_losses() { pair->contacts.book_losses(); }
@@ -121,7 +150,7 @@ void ComputeCDEMEnergy::keep_books() {
   energy[DASHPOTS] = dashpots;
   energy[DRAG] = drag;
   energy[WALLS] = walls;
-  energy[GRAVITY] = now.gravity - audit->opening.gravity;
+  energy[GRAVITY] = work_of_gravity(audit->opening.gx, audit->opening.gy) - audit->opening.gravity;
   energy[RESIDUAL] =
       now.kinetic + now.springs - audit->opening.energy + friction + dashpots + drag - energy[WALLS] - energy[GRAVITY];
 }

@@ -16,7 +16,7 @@
 //   6 dashpots     lost in the dashpots
 //   7 drag         lost to drag and local damping of fix cdem/integrate
 //   8 walls        work that the walls of fixes cdem/lid and cdem/move did on the grains
-//   9 gravity      work of the gravity of fix cdem/integrate, which must not be changed during the audit
+//   9 gravity      work of the gravity of fix cdem/integrate
 //   10 residual    the increase of the energy of the grains and springs since then, plus 5 to 7, less 8 and 9
 //
 // Work and losses are sums over steps of the mean force at the two ends of the step times its displacement, as the time
@@ -54,6 +54,7 @@ public:
   void compute_vector() override;
 
   void open_books() override;
+  void take_gravity() override;
   void book_losses() override;
 
 private:
@@ -62,14 +63,16 @@ private:
 
   // Of all grains that fix cdem/integrate moves, at present (J).
   struct State {
-    double kinetic, springs, tangential, gravity;
+    double kinetic, springs, tangential;
   };
   State state() const;
+  double work_of_gravity(double gx, double gy) const; // sum of m g.x of the same grains (J)
   struct Kinetic {
     double translation, rotation;
   };
   Kinetic kinetic(int i) const;
   void keep_books();
+  void refuse_lost_audit() const;
 
   PairCDEM *pair = nullptr;
   FixCDEMGrains *grains = nullptr;
