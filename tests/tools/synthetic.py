@@ -65,7 +65,8 @@ def curves(sigma: float, travel: float, rows: int = 800, seed: int = 1) -> dict[
 
 
 def inside(columns: dict[str, np.ndarray], sigma: float) -> dict[str, np.ndarray]:
-    """Further columns of the same: the shear plane bears a tenth less than lid and lower half, all sides a hundredth."""
+    """Further columns of the same: the shear plane bears a tenth less than lid and lower half, all sides a hundredth; grains
+    bear a third of the shear stress in the mean."""
     rows = len(columns["step"])
     return {
         "plane_kPa": np.full(rows, 0.9 * sigma),
@@ -74,6 +75,9 @@ def inside(columns: dict[str, np.ndarray], sigma: float) -> dict[str, np.ndarray
         "flanges_upper_kPa": np.full(rows, 0.02 * sigma),
         "coordination": np.full(rows, 3.5),
         "inertial": np.full(rows, 1e-4),
+        "stress_xx_kPa": np.full(rows, sigma),
+        "stress_yy_kPa": np.full(rows, sigma),
+        "stress_xy_kPa": columns["tau_kPa"] / 3,
     }
 
 

@@ -19,6 +19,7 @@ from test_run import TESTS
 from paper_tools import findings
 from paper_tools.effects import CONFIRMED, CONTRADICTED, OPEN
 from paper_tools.findings import Finding, halves_agree, of_the_laws
+from paper_tools.outlook import SWEEPS, Study, study
 from paper_tools.record import read_record, write_record
 from paper_tools.specimens import CURVES, JUDGED, NUMBERS, PLACES, STRENGTHS, Group, Specimen
 from paper_tools.specimens import specimen as measured
@@ -34,9 +35,10 @@ from shearbox_tools.results import read_results
 PAPER = TESTS.parents[1] / "tools" / "paper"
 PER_BOX = 5  # specimens
 
-# phi of the box, and what sizes and shapes add to it; the paper's claims hold: finer, larger, rounder is weaker
+# phi of the box, and what sizes and shapes add to it; the paper's claims hold: finer, larger, rounder is weaker, and finer rolls more
 PHI = {"A": 34.0, "B": 33.0, "C": 32.0, "D": 31.0}
 ADDED = {"4-8": 0.0, "2-4": -2.0, "T-2": -4.0, "2-4_triple": 12.0}
+TRM = {"4-8": 0.6, "2-4": 0.65, "T-2": 0.7, "2-4_triple": 0.2}
 LATE = {"4-8": -0.05, "2-4": -0.10, "T-2": -0.15, "2-4_triple": 0.2}
 
 
@@ -48,7 +50,7 @@ def group(name: str, rng: np.random.Generator, **numbers: float) -> Group:
         test = dict.fromkeys(NUMBERS, 1.0) | {key: value for key, value in near.items() if key in NUMBERS}
         phi = numbers["phi"] + 0.1 * rng.normal()
         specimens.append(specimen(seed, {100.0: test, 200.0: test}, phi))
-    return Group(name, "", specimens)
+    return Group(name, "", 20, specimens)
 
 
 def specimen(seed: int, tests: dict[float, dict[str, float]], phi: float = 30.0, **more: Any) -> Specimen:
@@ -62,10 +64,12 @@ def models(change: dict[str, dict[str, float]] | None = None) -> dict[str, Group
     for kind, added in ADDED.items():
         for box, phi in PHI.items():
             if kind != "T-2" or box in "AB":
-                triple = kind == "2-4_triple"
-                numbers = {"phi": phi + added, "late_rate": LATE[kind], "trm": 0.2 if triple else 0.6,
-                           "dilation_deg": 30.0 if triple else 20.0, "sharpness": 1.1}  # fmt: skip
-                made[f"{box}_{kind}"] = group(f"{box}_{kind}", rng, **(numbers | (change or {}).get(kind, {})))
+                dilation = 30.0 if kind == "2-4_triple" else 20.0
+                numbers = {"phi": phi + added, "late_rate": LATE[kind], "trm": TRM[kind], "dilation_deg": dilation,
+                           "sharpness": 1.1} | (change or {}).get(kind, {})  # fmt: skip
+                strength = np.tan(np.radians(numbers["phi"]))
+                ratios = {"peak": strength, "peak_smoothed": strength, "mean": 0.9 * strength, "end": 0.8 * strength}
+                made[f"{box}_{kind}"] = group(f"{box}_{kind}", rng, **(ratios | numbers))
     return made
 
 
@@ -81,7 +85,8 @@ def test_a_world_as_the_paper_describes_it() -> None:
     "kind, change, claims",
     [
         ("2-4_triple", {"trm": 0.9}, ["They roll less: TRM at the end"]),
-        ("T-2", {"phi": 40.0}, ["The finer the single discs, the lower φ (lid)", "The finer the single discs, the lower φ (shear plane)"]),
+        ("T-2", {"phi": 40.0}, [f"The finer the single discs, the lower {what}" for _, what in findings.STRENGTH]),
+        ("4-8", {"peak_smoothed": 0.78}, ["Polynomials find the peak"]),
         ("4-8", {"sharpness": 3.0}, ["Dense specimens have no sharp peak: single discs"]),
     ],
 )  # fmt: skip
@@ -125,6 +130,50 @@ def test_what_cannot_be_judged_does_not_count() -> None:
     assert all(effect.count == 0 for one in by_plane for effect in one.effects)
 
 
+def sweep_of(tmp_path: Path, apart: float, **more: float) -> Study:
+    """Friction angles of 0, 27 and 35 degrees, whose packings have the same seeds and solid fractions that differ by `apart`: phi is that
+    of the packing and 0.1 for each degree."""
+
+    def some(value: float, seeds: Iterable[int]) -> Group:
+        tests = [(k, dict.fromkeys(NUMBERS, 1.0) | {"solid": 0.8 + 0.01 * k + apart * value}) for k in seeds]
+        of_packing = {k: 20 + 3 * k + 0.1 * value for k, _ in tests}
+        return Group("", "", 20, [specimen(k, {100.0: t, 200.0: t}, of_packing[k], **more) for k, t in tests])
+
+    (sweep,) = [one for one in SWEEPS if one.name == "friction"]
+    groups = {f"single_{value}": some(value, range(1, 5)) for value in (0, 35)}
+    found = study(sweep, groups, {"A_4-8": some(27, range(1, 9))}, tmp_path)
+    assert found is not None
+    return found
+
+
+@pytest.mark.parametrize("apart", [0, 1e-3])
+def test_the_same_packings_are_compared_packing_by_packing(tmp_path: Path, apart: float) -> None:
+    """However much they differ from each other. Others are samples of their own."""
+    found = sweep_of(tmp_path, apart)
+    (trend,) = [effect for name, effect in found.trends if name == "phi"]
+    with (tmp_path / "friction.csv").open(encoding="utf-8") as stream:
+        rows = {
+            row["value"]: {k: float(v) for k, v in row.items() if k.startswith("phi")} for row in csv.DictReader(stream)
+        }
+    change = rows["35"]
+    if apart:
+        assert trend.high - trend.low > 0.2 and change["phi_change_specimens"] == 12
+        assert change["phi_change_high"] - change["phi_change_low"] > 5
+        return
+    assert (trend.value, trend.low, trend.high, trend.count) == pytest.approx((0.1, 0.1, 0.1, 4))
+    ends = ("", "_low", "_high", "_specimens")
+    assert [change[f"phi_change{end}"] for end in ends] == pytest.approx([0.8, 0.8, 0.8, 4])
+    assert np.isnan(rows["27"]["phi_change"])
+
+
+def test_a_diagram_with_one_value_is_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn: list[Figure] = []
+    monkeypatch.setattr(Figure, "savefig", lambda figure, *_, **__: drawn.append(figure))
+    sweep_of(tmp_path, 0, phi_plane=np.nan)
+    labels = [axes.get_ylabel() for axes in drawn[0].axes]
+    assert labels == ["φ by the lid (°)", "ψ at the peak (°)", "TRM (–)"]
+
+
 def test_without_specimens_all_is_open() -> None:
     assert set(verdicts(findings.findings({})).values()) == {OPEN}
 
@@ -139,11 +188,11 @@ def test_laws_are_compared_seed_by_seed() -> None:
         ]
         for more in (0.01, 0.0)
     )
-    groups = [{"A_4-8": Group("A_4-8", "", some)} for some in (even, rough[1:])]
+    groups = [{"A_4-8": Group("A_4-8", "", 20, some)} for some in (even, rough[1:])]
     (found,) = of_the_laws(*groups)
     assert (found.verdict, found.effects[0].count) == (CONFIRMED, PER_BOX - 1)
     assert found.effects[0].value == pytest.approx(0.01)
-    first = Group("A_2-4", "", even[:2])
+    first = Group("A_2-4", "", 20, even[:2])
     (found,) = of_the_laws(*({"A_2-4": first} | group for group in groups))
     values = [effect.value for effect in found.effects]
     assert values == pytest.approx([0.01 * (PER_BOX - 1) / (PER_BOX + 1), 0, 0.01])
@@ -217,6 +266,11 @@ def test_the_page_of_what_there_is(tmp_path: Path, monkeypatch: pytest.MonkeyPat
         for sigma in ("100", "200")
     )
     assert all(float(row["peak"]) == pytest.approx(0.5 + 5 / float(row["sigma_kPa"]), rel=0.05) for row in rows)
+    for (
+        row
+    ) in rows:  # a third of tau inside; where the normal stresses are alike, the sine of the angle is xy over them
+        assert float(row["mean_inside"]) == pytest.approx(float(row["mean"]) / 3, rel=0.01)
+        assert np.sin(np.radians(float(row["tensor_deg"]))) == pytest.approx(float(row["peak"]) / 3, rel=0.05)
     found = json.loads((tmp_path / "findings.json").read_text(encoding="utf-8"))["smooth"]
     assert {one["verdict"] for one in found if one["claim"].startswith("Grains of three")} == {OPEN}
     lines = (tmp_path / "figures" / "fig03.csv").read_text(encoding="utf-8").splitlines()

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Effects with 95 % intervals, and what they say of a claim.
 
-Specimens are independent samples; an effect is a mean over specimens, a difference of two (shearbox_tools/differences.py), one that
-is the same in several boxes, each with a mean of its own, by least squares with one variance for all, a slope, or a share.
+Specimens with packings of their own are independent samples; an effect is a mean over them, a difference of two
+(shearbox_tools/differences.py), a share, or one over several groups (over_groups.py). What is told of the same packings, sheared in
+different ways, is told packing by packing.
 """
 
 from collections.abc import Sequence
@@ -63,30 +64,10 @@ def paired(label: str, first: np.ndarray, second: np.ndarray) -> Effect:
     return _known(label, len(first), differences.difference(*means, paired=True))
 
 
-def common_difference(label: str, pairs: Sequence[tuple[np.ndarray, np.ndarray]]) -> Effect:
-    """Of several pairs of groups, the difference that is the same in all: value = box + difference + scatter. Pairs of which one has no
-    specimens tell nothing."""
-    pairs = [(a, b) for a, b in pairs if len(a) and len(b)]
-    if not pairs:
-        return unknown(label)
-    weights = np.array([1 / (1 / len(a) + 1 / len(b)) for a, b in pairs])
-    values = np.array([np.mean(b) - np.mean(a) for a, b in pairs])
-    groups = [group for pair in pairs for group in pair]
-    count, spread = sum(map(len, groups)), sum(float(np.sum((g - np.mean(g)) ** 2)) for g in groups)
-    # an additive model has one mean a box and one difference; what boxes differ in it is scatter, too
-    value = float(np.average(values, weights=weights))
-    spread += float(np.sum(weights * (values - value) ** 2))
-    freedom = count - len(pairs) - 1
-    error = np.sqrt(spread / freedom / weights.sum()) if freedom > 0 else np.nan
-    return _effect(label, count, value, error, freedom)
-
-
-def slope(label: str, x: np.ndarray, y: np.ndarray) -> Effect:
-    """Of y over x, a specimen each."""
-    if len(x) < 3 or np.ptp(x) == 0:
-        return unknown(label, len(x))
-    line = stats.linregress(x, y)
-    return _effect(label, len(x), float(line.slope), float(line.stderr), len(x) - 2)
+def slope_of_each(label: str, lines: Sequence[tuple[np.ndarray, np.ndarray]]) -> Effect:
+    """Mean of the slopes of lines (x, y), one through each packing: what packings differ by is not in it. Three points make a line."""
+    slopes = [stats.linregress(x, y).slope for x, y in lines if len(x) > 2 and np.ptp(x) > 0]
+    return mean(label, np.array(slopes))
 
 
 def share(label: str, holds: int, judged: int) -> Effect:
@@ -102,6 +83,7 @@ def _known(label: str, count: int, of: differences.Mean | differences.Difference
     return Effect(label, count, of.value, low, high)
 
 
-def _effect(label: str, count: int, value: float, error: float, freedom: float) -> Effect:
+def effect_of(label: str, count: int, value: float, error: float, freedom: float) -> Effect:
+    """With a standard error of so many degrees of freedom; no interval without any."""
     half = float(stats.t.ppf((1 + COVERAGE) / 2, freedom) * error) if freedom > 0 else np.nan
     return Effect(label, count, value, value - half, value + half)

@@ -60,6 +60,7 @@ def draw(groups: Groups, folder: Path) -> list[Picture]:
 def _model(group: Group, number: int, folder: Path) -> Picture:
     """Shear stress and rise of the lid against the shear displacement."""
     curves, parts = mean_curves(group), []
+    speed = _speeds({group.name: group}, [group.name])
     for part, name in (("a", "shear stress τ (kPa)"), ("b", "vertical displacement, up (mm)")):
         figure, axes = diagram("horizontal displacement (mm)", name)
         look = looks([curve.sigma for curve in curves])
@@ -68,10 +69,17 @@ def _model(group: Group, number: int, folder: Path) -> Picture:
             _with_error(axes, curve.displacement, band.mean, band.error, look[curve.sigma])
         axes.axhline(0, color=AXIS_COLOUR, lw=0.8)
         axes.set_xlim(0, 8)
+        axes.set_title(speed, fontsize=8, loc="right")
         name_stresses(axes, look)
         parts.append(_written(figure, folder / f"fig{number:02d}{part}.svg"))
     write_text(folder / f"fig{number:02d}.csv", as_csv(curves))
     return Picture(number, f"{group.model}, mean of {len(group.drawn)}", parts, SIZE[0])
+
+
+def _speeds(groups: Groups, names: Sequence[str]) -> str:
+    """At which the models of these names were sheared."""
+    speeds = sorted({groups[name].speed for name in names if name in groups})
+    return f"{', '.join(f'{speed:g}' for speed in speeds)} mm/s"
 
 
 def mean_curves(group: Group) -> list[MeanCurve]:
@@ -104,7 +112,7 @@ def _panels(groups: Groups, kinds: Mapping[str, str], y: str, rows: int = 1) -> 
     figure = Figure(figsize=(width, 2.9 * rows + 0.4), layout="constrained")
     axes = figure.subplots(rows, max(1, len(boxes)), sharex=True, sharey=True, squeeze=False)
     for column, box in zip(axes.T, boxes):
-        column[0].set_title(f"box {box}", fontsize=9)
+        column[0].set_title(f"box {box}, {_speeds(groups, [f'{box}_{kind}' for kind in kinds])}", fontsize=9)
     axes[0, 0].set_ylabel(y)
     return figure, axes, boxes
 
@@ -161,7 +169,8 @@ def _rotation(groups: Groups, kinds: Mapping[str, str], number: int, title: str,
             table = zip(PLACES, trm.mean, trm.error)
             lines += [f"{box},{kind},{len(group.drawn)},{x:.6g},{y:.6g},{e:.6g}" for x, y, e in table]
         axes[0, k].set_xlabel("horizontal displacement (mm)")
-    axes[0, 0].axhline(1, color=AXIS_COLOUR, lw=0.8)
+    for one in axes.flat:
+        one.axhline(1, color=AXIS_COLOUR, lw=0.8)
     axes[0, 0].set_xlim(0, 8)
     axes[0, 0].set_ylim(bottom=0)
     return _finished(figure, axes, number, title, lines, folder)

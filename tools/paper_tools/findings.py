@@ -14,19 +14,26 @@ from .effects import (
     CONTRADICTED,
     OPEN,
     Effect,
-    common_difference,
     difference,
     mean,
     paired,
     share,
-    slope,
     unknown,
 )
+from .over_groups import common_difference, mean_of_groups, slope
 from .specimens import Group, Specimen
 
 BOXES = "ABCD"
 WIDTHS = {"A": 10, "B": 15, "C": 20, "D": 30}  # cm
 COARSE, FINE, FINEST, TRIPLE = "4-8", "2-4", "T-2", "2-4_triple"
+STRENGTH = (
+    ("phi", "φ (lid)"),
+    ("phi_plane", "φ (shear plane)"),
+    ("peak", "the shear strength, greatest τ/σ"),
+    ("mean", "the mean τ/σ"),
+    ("end", "the ultimate τ/σ"),
+)
+ALIKE = 0.05  # two estimates of a peak that are no further apart are one
 SHARP = 1.25  # a peak is sharp whose stress is a quarter above that of the last fifth: as of dense sands
 EXCEPTION = "C_2-4"  # Fig. 9
 
@@ -51,13 +58,14 @@ def findings(groups: Groups) -> list[Finding]:
         _features(groups),
         *(_sharp(groups, kind) for kind in ("single", "triple")),
         _falling(groups),
-        _finer(groups, "late_rate", "The finer the single discs, the more the dilatancy curve falls", "③ 1)"),
-        *(
-            _finer(groups, name, f"The finer the single discs, the lower φ ({by})", "③ 1)")
-            for name, by in (("phi", "lid"), ("phi_plane", "shear plane"))
+        _finer(groups, "late_rate", "The finer the single discs, the less the lid rises in the second half", "③ 1)"),
+        *(_finer(groups, name, f"The finer the single discs, the lower {what}", "③ 1)") for name, what in STRENGTH),
+        *(_larger(groups, name, what) for name, what in STRENGTH),
+        _finer(
+            groups, "trm", "The finer the single discs, the more they roll: TRM at the end", "3.3, roller effect", 1
         ),
-        *(_larger(groups, name, by) for name, by in (("phi", "lid"), ("phi_plane", "shear plane"))),
         *_triples(groups),
+        _polynomials(groups),
     ]
 
 
@@ -78,7 +86,7 @@ def _features(groups: Groups) -> Finding:
 
 def _all_features(one: Specimen) -> bool | None:
     holds = list(one.holds.values())
-    return None if None in holds and False not in holds else all(holds)
+    return None if None in holds else all(holds)
 
 
 def _sharp(groups: Groups, kind: str) -> Finding:
@@ -92,10 +100,9 @@ def _sharp(groups: Groups, kind: str) -> Finding:
 
 
 def _over(label: str, some: Iterable[Group], name: str) -> Effect:
-    """Mean of the models' means, whose scatter is also that of models."""
+    """Mean of the models' means."""
     values = [of_model for group in some if len(of_model := group.values(name))]
-    whole = mean(label, np.array([float(np.mean(of_model)) for of_model in values]))
-    return Effect(label, sum(map(len, values)), whole.value, whole.low, whole.high)
+    return mean_of_groups(f"{label}, {len(values)} models", values)
 
 
 def _falling(groups: Groups) -> Finding:
@@ -113,31 +120,30 @@ def _pairs(groups: Groups, first: str, second: str) -> list[tuple[str, Group, Gr
 
 def _compared(groups: Groups, first: str, second: str, name: str) -> list[Effect]:
     """The second less the first: in all boxes together, then in each."""
-    pairs = [(box, a.values(name), b.values(name)) for box, a, b in _pairs(groups, first, second)]
+    pairs = [(box, a.linear(name), b.linear(name)) for box, a, b in _pairs(groups, first, second)]
     if not pairs:
         return [unknown(f"{second} less {first}")]
     whole = common_difference(f"{second} less {first}, all boxes", [(a, b) for _, a, b in pairs])
     return [whole, *(difference(f"{second} less {first}, box {box}", a, b) for box, a, b in pairs)]
 
 
-def _finer(groups: Groups, name: str, claim: str, source: str) -> Finding:
-    """Both steps, from 4-8 to 2-4 mm and on to 2 mm, must go down."""
+def _finer(groups: Groups, name: str, claim: str, source: str, sign: int = -1) -> Finding:
+    """Both steps, from 4-8 to 2-4 mm and on to 2 mm, must go down (sign -1) or up."""
     steps = [_compared(groups, COARSE, FINE, name), _compared(groups, FINE, FINEST, name)]
-    verdicts = [step[0].verdict(-1) for step in steps]
+    verdicts = [step[0].verdict(sign) for step in steps]
     verdict = next((v for v in (CONTRADICTED, OPEN) if v in verdicts), CONFIRMED)
-    rule = "lower at both steps: from 4–8 to 2–4 mm, and from there to 2 mm"
+    rule = f"{'lower' if sign < 0 else 'higher'} at both steps: from 4–8 to 2–4 mm, and from there to 2 mm"
     return Finding(claim, source, rule, [step[0] for step in steps] + steps[0][1:] + steps[1][1:], verdict, len(steps))
 
 
-def _larger(groups: Groups, name: str, by: str) -> Finding:
+def _larger(groups: Groups, name: str, what: str) -> Finding:
     effects = []
     for size in (COARSE, FINE, TRIPLE):
-        of_boxes = [(box, groups[f"{box}_{size}"].values(name)) for box in BOXES if f"{box}_{size}" in groups]
-        x = [np.log2(WIDTHS[box]) for box, values in of_boxes for _ in values]
-        y = [value for _, values in of_boxes for value in values]
-        effects.append(slope(f"{size}, degrees for twice the width", np.array(x), np.array(y)))
+        known = [(box, groups[f"{box}_{size}"]) for box in BOXES if f"{box}_{size}" in groups]
+        of_boxes = [(float(np.log2(WIDTHS[box])), group.linear(name)) for box, group in known]
+        effects.append(slope(f"{size}, for twice the width", of_boxes))
     rule = "slope over log₂ of the width below 0, of 4–8 mm (the wide distribution)"
-    claim = f"With a wide distribution of sizes φ falls with the size of the box ({by})"
+    claim = f"With a wide distribution of sizes the larger the box, the lower {what}"
     return Finding(claim, "③ 2)", rule, effects, effects[0].verdict(-1))
 
 
@@ -159,6 +165,19 @@ def _triples(groups: Groups) -> list[Finding]:
         effects = [alike[0], same_discs[0], *alike[1:], *same_discs[1:]]
         found.append(Finding(claim, source, rule, effects, alike[0].verdict(sign)))
     return found
+
+
+def _polynomials(groups: Groups) -> Finding:
+    """The same peaks as those of the smoothed data, which take no form of the curve for granted."""
+    apart = {}
+    for group in groups.values():
+        tests = [test for one in group.specimens for test in one.tests.values()]
+        of_tests = np.array([abs(test["peak"] / test["peak_smoothed"] - 1) for test in tests])
+        apart[group.name] = of_tests[np.isfinite(of_tests)]
+    rows = [mean(f"{name}, tests", values) for name, values in apart.items()]
+    whole = mean_of_groups("all models, tests", list(apart.values()))
+    rule = f"the peak of the polynomial is less than {100 * ALIKE:g} % from that of the smoothed data, in the mean of tests"
+    return Finding("Polynomials find the peak", "5 ④", rule, [whole, *rows], whole.verdict(-1, ALIKE))
 
 
 def of_the_laws(direct: Groups, incremental: Groups) -> list[Finding]:
@@ -186,7 +205,7 @@ def halves_agree(groups: Groups, names: Iterable[str]) -> tuple[int, int]:
     agree = tried = 0
     for group in groups.values():
         for name in names:
-            values = group.values(name)
+            values = group.linear(name)
             if len(values) < 4:
                 continue
             effect = difference("", values[0::2], values[1::2])

@@ -18,8 +18,9 @@ from matplotlib.figure import Figure
 from shearbox_tools.files import write_text
 from shearbox_tools.style import OTHER_LOOKS, RC
 
-from .effects import Effect, mean, slope
+from .effects import Effect, difference, mean, paired, slope_of_each, unknown
 from .figures import legend_above
+from .over_groups import slope
 from .specimens import ANGLES, Group
 
 # and the models of the campaign of all that have the paper's value
@@ -31,28 +32,33 @@ PANELS = {
     "trm": "TRM (–)",
 }
 COHESIONS = {"c": "c by the lid (kPa)", "c_plane": "c by the shear plane (kPa)"}
+SAME_SOLID = 1e-4  # how much solid fractions of one packing differ, consolidated with other contacts: 2e-5
 TABLE = ["phi", "phi_plane", "c", "c_plane", "dilation_deg", "trm", "mean", "mean_plane", "end", "inertial", "solid"]
 
 
 @dataclass(frozen=True)
 class Sweep:
-    """A campaign: title, the axis of its values, whether that is logarithmic, the paper's value, and what is drawn."""
+    """A campaign: title, the axis of its values, the paper's value and whether the models of the campaign of all have it, whether the
+    axis is logarithmic, and what is drawn."""
 
     name: str
     title: str
     axis: str
-    base: str
+    paper: float
+    in_models: bool = True
     logarithmic: bool = False
     panels: Mapping[str, str] = field(default_factory=lambda: PANELS)
 
 
 SWEEPS = (
-    Sweep("rate", "Loading rate", "shear speed (mm/s)", "", True),
-    Sweep("inertia", "Roller effect: moment of inertia", "moment of inertia over that of discs (–)", "1", True),
-    Sweep("rolling", "Roller effect: rolling resistance", "coefficient of rolling resistance (–)", "0"),
-    Sweep("shape", "Roller effect: grains of several discs, in a row or close together", "discs of a grain (–)", "1"),
-    Sweep("friction", "φ and the friction angle between grains", "φ_μ (degrees)", "27"),
-    Sweep("cohesion", "Cohesive contacts", "pull-off force of two discs (N)", "0", panels=COHESIONS | PANELS),
+    Sweep("rate", "Loading rate", "shear speed (mm/s)", 2, in_models=False, logarithmic=True),
+    Sweep(
+        "inertia", "Roller effect: moment of inertia", "moment of inertia over that of discs (–)", 1, logarithmic=True
+    ),
+    Sweep("rolling", "Roller effect: rolling resistance", "coefficient of rolling resistance (–)", 0),
+    Sweep("shape", "Roller effect: grains of several discs, in a row or close together", "discs of a grain (–)", 1),
+    Sweep("friction", "φ and the friction angle between grains", "φ_μ (degrees)", 27),
+    Sweep("cohesion", "Cohesive contacts", "pull-off force of two discs (N)", 0, panels=COHESIONS | PANELS),
 )
 
 
@@ -85,14 +91,14 @@ def study(sweep: Sweep, groups: Mapping[str, Group], models: Mapping[str, Group]
         return None
     points = [Point(*_family_and_value(name), group) for name, group in groups.items()]
     families = sorted({point.family for point in points})
-    if sweep.base:
-        points += [Point(f, float(sweep.base), models[FAMILIES[f]]) for f in families if FAMILIES[f] in models]
+    if sweep.in_models:
+        points += [Point(f, sweep.paper, models[FAMILIES[f]]) for f in families if FAMILIES[f] in models]
     points.sort(key=lambda point: (point.family, point.value))
     folder.mkdir(parents=True, exist_ok=True)
     picture, numbers = folder / f"{sweep.name}.svg", folder / f"{sweep.name}.csv"
     with rc_context(RC):
         _figure(sweep, points).savefig(picture, metadata={"Date": None})
-    write_text(numbers, _csv(points))
+    write_text(numbers, _csv(sweep, points))
     trends = [(name, _trend(sweep, f, points, name)) for f in families for name in sweep.panels]
     return Study(sweep, points, trends, picture)
 
@@ -103,19 +109,48 @@ def _family_and_value(name: str) -> tuple[str, float]:
 
 
 def _trend(sweep: Sweep, family: str, points: list[Point], name: str) -> Effect:
-    """Per unit of the axis, or tenfold if that is logarithmic."""
-    some = [point for point in points if point.family == family]
-    values = [point.group.values(name) for point in some]
-    x = np.concatenate([np.full(len(v), point.value) for v, point in zip(values, some)])
-    per = "tenfold" if sweep.logarithmic else "unit"
-    return slope(
-        f"{family}: {sweep.panels[name]} per {per}", np.log10(x) if sweep.logarithmic else x, np.concatenate(values)
-    )
+    """Per unit of the axis, or tenfold if that is logarithmic; packing by packing where all values have the same ones."""
+    some = [(point.value, point.group) for point in points if point.family == family]
+    if sweep.logarithmic:
+        some = [(float(np.log10(value)), group) for value, group in some]
+    label = f"{family}: {sweep.panels[name]} per {'tenfold' if sweep.logarithmic else 'unit'}"
+    if all(_shared(some[0][1], group) for _, group in some):
+        return slope_of_each(label, _lines(some, name))
+    return slope(label, [(x, group.linear(name)) for x, group in some])
+
+
+def _lines(groups: list[tuple[float, Group]], name: str) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Of each seed the places and values that are known."""
+    lines: dict[int, list[tuple[float, float]]] = {}
+    for x, group in groups:
+        for one in group.specimens:
+            if np.isfinite(value := one.mean(name)):
+                lines.setdefault(one.seed, []).append((x, value))
+    return [(x, y) for x, y in (np.array(line).T for line in lines.values())]
+
+
+def _shared(one: Group, other: Group) -> list[int]:
+    """Seeds of which both have the same packing. Other grains, or other contacts while they are packed, make another one."""
+    solid = {of.seed: of.mean("solid") for of in one.specimens}
+    return [of.seed for of in other.specimens if abs(solid.get(of.seed, np.nan) - of.mean("solid")) < SAME_SOLID]
+
+
+def _change(base: Point | None, point: Point, name: str) -> Effect:
+    """Less that of the paper's value, of the same packings if there are any."""
+    if base is None or base is point:
+        return unknown(name)
+    if not (shared := _shared(base.group, point.group)):
+        return difference(name, base.group.linear(name), point.group.linear(name))
+    of_both = [{one.seed: one.mean(name) for one in of.group.specimens} for of in (base, point)]
+    pairs = np.array([[values[seed] for values in of_both] for seed in shared])
+    pairs = pairs[np.all(np.isfinite(pairs), axis=1)]
+    return paired(name, *pairs.T) if len(pairs) else unknown(name)
 
 
 def _figure(sweep: Sweep, points: list[Point]) -> Figure:
-    figure = Figure(figsize=(2.4 * len(sweep.panels), 2.9), layout="constrained")
-    for axes, (name, label) in zip(figure.subplots(1, len(sweep.panels)), sweep.panels.items()):
+    panels = _known_panels(sweep, points)
+    figure = Figure(figsize=(2.4 * len(panels), 2.9), layout="constrained")
+    for axes, (name, label) in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels.items()):
         for look, family in zip(OTHER_LOOKS, sorted({point.family for point in points})):
             every = [(point.value, point.effect(name)) for point in points if point.family == family]
             some = [(value, effect) for value, effect in every if effect.count]
@@ -131,14 +166,31 @@ def _figure(sweep: Sweep, points: list[Point]) -> Figure:
     return figure
 
 
-def _csv(points: list[Point]) -> str:
-    """A line for each point: means with their intervals, over so many specimens."""
+def _known_panels(sweep: Sweep, points: list[Point]) -> dict[str, str]:
+    """Those with two values or more; of one there is nothing to see. The last one, if there is none."""
+    known = {name: sum(len(point.group.values(name)) > 0 for point in points) > 1 for name in sweep.panels}
+    return {name: label for name, label in sweep.panels.items() if known[name]} or dict(
+        [list(sweep.panels.items())[-1]]
+    )
+
+
+def _csv(sweep: Sweep, points: list[Point]) -> str:
+    """A line for each point: means with their intervals, over so many specimens, and how they differ from the paper's value."""
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
-    columns = [f"{name}{end}" for name in TABLE for end in ("", "_low", "_high", "_specimens")]
-    table.writerow(["family", "value", "specimens", *columns])
+    ends = ("", "_low", "_high", "_specimens")
+    table.writerow(
+        [
+            "family",
+            "value",
+            "specimens",
+            *(f"{name}{kind}{end}" for name in TABLE for kind in ("", "_change") for end in ends),
+        ]
+    )
+    bases = {point.family: point for point in points if point.value == sweep.paper}
     for point in points:
-        effects = [point.effect(name) for name in TABLE]
+        base = bases.get(point.family)
+        effects = [effect for name in TABLE for effect in (point.effect(name), _change(base, point, name))]
         cells = [f"{v:.6g}" for e in effects for v in (e.value, e.low, e.high, e.count)]
         table.writerow([point.family, f"{point.value:g}", len(point.group.specimens), *cells])
     return text.getvalue()

@@ -22,6 +22,7 @@ from .specimens import ANGLES, Group
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 OF_MODELS = ["phi", "phi_plane", "c", "dilation_deg", "sharpness", "late_rate", "trm", "solid", "inertial"]
+OF_STRESSES = ["mean", "mean_plane", "mean_inside", "peak", "tensor_deg"]
 OF_WALLS = ["sides_rest", "sides_peak", "flanges_peak", "peak", "peak_plane"]
 HALVES = ("phi", "phi_plane", "dilation_deg", "trm", "mean", "peak")
 
@@ -29,7 +30,8 @@ HALVES = ("phi", "phi_plane", "dilation_deg", "trm", "mean", "peak")
 def strengths(group: Group) -> dict[str, Effect]:
     """The numbers of a model's row."""
     return {
-        name: mean(group.name, group.values(name), name in ANGLES) for name in dict.fromkeys([*OF_MODELS, *OF_WALLS])
+        name: mean(group.name, group.values(name), name in ANGLES)
+        for name in dict.fromkeys([*OF_MODELS, *OF_WALLS, *OF_STRESSES])
     }
 
 
@@ -56,7 +58,7 @@ def write_findings(findings: Mapping[str, Sequence[Finding]], out: Path) -> None
 def write_page(out: Path, **content: Any) -> Path:
     """page.html."""
     templates = environment(Path(__file__).parent / "templates", TEMPLATES)
-    templates.filters.update(uri=_uri, interval=interval)
+    templates.filters.update(uri=_uri, interval=interval, arctan=lambda ratio: float(np.degrees(np.arctan(ratio))))
     page = out / "page.html"
     write_text(page, templates.get_template("paper.html.j2").render(**content))
     return page

@@ -7,13 +7,14 @@ from pathlib import Path
 import numpy as np
 
 from shearbox_tools.campaign import read_timings
+from shearbox_tools.differences import mean_angle
 from shearbox_tools.ensemble import lines_of
 from shearbox_tools.ensemble_results import FEATURES, holds_in
 from shearbox_tools.grouping import LeftOut
 from shearbox_tools.peak import steepest
 from shearbox_tools.reading import read_all, read_quietly
 from shearbox_tools.results import Results
-from shearbox_tools.shear import Shear
+from shearbox_tools.shear import LARGEST_ERROR_PERCENT, Shear
 from shearbox_tools.specimens import find_runs
 from shearbox_tools.stress_dilatancy import ultimate_rows
 
@@ -28,6 +29,8 @@ NUMBERS = {
     "plane_load": "σ on the shear plane there, over the lid's",
     "mean": "mean τ over mean σ",
     "mean_plane": "the same on the shear plane",
+    "mean_inside": "mean shear stress over mean normal stress inside, of the stress tensor of all grains",
+    "tensor_deg": "mobilised friction angle of that tensor at the peak of τ, by its principal stresses, degrees",
     "end": "τ/σ in the last fifth",
     "sharpness": "greatest τ over that of the last fifth",
     "dilation_deg": "dilation angle at the peak of τ, degrees",
@@ -69,10 +72,16 @@ class Specimen:
     holds: dict[str, bool | None]
     hours: float
 
+    @property
+    def is_followed(self) -> bool:
+        """Whether no peak of a polynomial is further from that of the smoothed data than a peak may be uncertain."""
+        most = LARGEST_ERROR_PERCENT / 100
+        return not any(abs(test["peak"] / test["peak_smoothed"] - 1) > most for test in self.tests.values())
+
     def mean(self, name: str) -> float:
-        """Of a number of NUMBERS, over the stresses; of a strength, itself."""
+        """Of a number of NUMBERS, over the stresses; of a strength, itself, where polynomials follow the curves."""
         if name in STRENGTHS:
-            return float(getattr(self, name))
+            return float(getattr(self, name)) if self.is_followed else np.nan
         return float(np.mean([numbers[name] for numbers in self.tests.values()]))
 
 
@@ -86,12 +95,22 @@ class Group:
 
     name: str
     model: str
+    speed: float  # mm/s
     specimens: list[Specimen]
 
     def values(self, name: str) -> np.ndarray:
         """(specimens,) of a number of NUMBERS, in the mean over the stresses, or of a strength; of those of which it is known."""
         values = np.array([specimen.mean(name) for specimen in self.specimens])
         return values[np.isfinite(values)]
+
+    def linear(self, name: str) -> np.ndarray:
+        """The same; of angles to first order around that of their mean slope, which is the mean of what is returned."""
+        values = self.values(name)
+        if name not in ANGLES or not len(values):
+            return values
+        linear = mean_angle(np.tan(np.radians(values))).values
+        assert linear is not None
+        return linear
 
     @property
     def stresses(self) -> list[float]:
@@ -171,6 +190,8 @@ def numbers(shear: Shear, bed: Numbers) -> Numbers:
         "plane_load": plane.sigma_at_peak / shear.sigma,
         "mean": float(np.mean(rows["tau_kPa"]) / lid),
         "mean_plane": float(np.mean(rows["plane_tau_kPa"]) / np.mean(rows["plane_kPa"])),
+        "mean_inside": float(np.mean(rows["stress_xy_kPa"]) / np.mean(rows["stress_yy_kPa"])),
+        "tensor_deg": _mobilised(*(float(np.mean(rows[f"stress_{of}_kPa"][near])) for of in ("xx", "yy", "xy"))),
         "end": shear.at_end.ratio,
         "sharpness": shear.peak.value / float(np.mean(rows["tau_kPa"][ultimate_rows(len(s))])),
         "dilation_deg": shear.at_peak.dilation_deg,
@@ -186,3 +207,8 @@ def numbers(shear: Shear, bed: Numbers) -> Numbers:
         "sides_peak": float(np.mean(rows["sides_upper_kPa"][near]) / lid),
         "flanges_peak": float(np.mean(rows["flanges_upper_kPa"][near]) / lid),
     }
+
+
+def _mobilised(xx: float, yy: float, xy: float) -> float:
+    """Angle (degrees) whose sine is the radius of Mohr's circle over its centre."""
+    return float(np.degrees(np.arcsin(2 * np.hypot((xx - yy) / 2, xy) / (xx + yy))))

@@ -16,7 +16,7 @@ from shearbox_tools.errors import ShearboxError
 from .figures import draw
 from .findings import Finding, findings, halves_agree, of_the_laws
 from .outlook import SWEEPS, study
-from .page import HALVES, OF_MODELS, OF_WALLS, print_page, strengths, table_3, write_findings, write_page
+from .page import HALVES, OF_MODELS, OF_STRESSES, OF_WALLS, print_page, strengths, table_3, write_findings, write_page
 from .record import Campaigns, write_record
 from .specimens import Group, Specimen, read_specimens
 
@@ -76,7 +76,7 @@ def report(folder: Path, kept: Campaigns) -> Path:
     page = write_page(
         folder,
         version=__version__,
-        speeds=sorted({f"{runs_of(walls)[g.name]['speed']:g}" for walls, some in models.items() for g, _ in some}),
+        speeds=sorted({f"{group.speed:g}" for some in models.values() for group, _ in some}),
         stresses=sorted({f"{sigma:g}" for group in smooth.values() for sigma in group.stresses}),
         specimens=len(specimens),
         kept=sum(len(some) for entries in kept.values() for some in entries.values()),
@@ -90,6 +90,7 @@ def report(folder: Path, kept: Campaigns) -> Path:
         models=models,
         of_models=OF_MODELS,
         of_walls=OF_WALLS,
+        of_stresses=OF_STRESSES,
         names=sorted({group.model for rows in models.values() for group, _ in rows}),
         by_name={walls: {group.model: values for group, values in rows} for walls, rows in models.items()},
         pictures=draw(smooth, folder / "figures"),
@@ -112,7 +113,8 @@ def _together(new: Mapping[str, list[Specimen]], kept: Mapping[str, list[Specime
 def _groups(campaign: str, entries: Mapping[str, list[Specimen]]) -> dict[str, Group]:
     if unknown := [name for name in entries if name not in runs_of(campaign)]:
         raise ShearboxError(f"{campaign}/{unknown[0]}: specimens of a run that {campaign_file(campaign)} does not have")
-    return {name: Group(name, runs_of(campaign)[name]["model"], some) for name, some in entries.items()}
+    asked = {name: runs_of(campaign)[name] for name in entries}
+    return {name: Group(name, asked[name]["model"], asked[name]["speed"], some) for name, some in entries.items()}
 
 
 def _side_by_side(found: Mapping[str, list[Finding]]) -> list[list[Finding]]:
