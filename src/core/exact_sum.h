@@ -12,6 +12,15 @@
 
 namespace cdem {
 
+// The power of 2 below |x|; 1 of 0 or what is not finite. Divided by it no bit is lost.
+inline double binade(double x) {
+  x = std::fabs(x);
+  return x > 0 && std::isfinite(x) ? std::ldexp(1, std::ilogb(x)) : 1;
+}
+
+// What to divide terms by that are all small, none larger than this, so that their sum has 40 bits or more.
+inline double unit_for(double largest) { return largest < 0x1p-20 ? binade(largest) : 1; }
+
 class ExactSum {
 public:
   // high, low, and the number of terms that were not finite or too large. The words of a total over ranks are the sums

@@ -62,12 +62,11 @@ public:
   };
 
   FieldSums(const Rectangle &all, int nx, int ny, const Largest &most) : grid(all, nx, ny), sums(grid.cells()) {
-    const double r = power_of_2(most.radius), m = power_of_2(most.mass), v = power_of_2(most.speed),
-                 f = power_of_2(most.force),
-                 c = power_of_2(std::max((all.xhi - all.xlo) / nx, (all.yhi - all.ylo) / ny));
+    const double r = binade(most.radius), m = binade(most.mass), v = binade(most.speed), f = binade(most.force),
+                 c = binade(std::max((all.xhi - all.xlo) / nx, (all.yhi - all.ylo) / ny));
     unit.fill(1);
     unit[AREA] = r * r;
-    unit[SPIN] = power_of_2(most.spin);
+    unit[SPIN] = binade(most.spin);
     unit[M] = m;
     unit[MX] = unit[MY] = m * c;
     unit[MXX] = unit[MYY] = unit[MXY] = m * c * c;
@@ -170,8 +169,6 @@ private:
     Quantity quantity;
     double value;
   };
-
-  static double power_of_2(double x) { return x > 0 && std::isfinite(x) ? std::ldexp(1, std::ilogb(x)) : 1; }
 
   void add(int k, std::initializer_list<Term> terms) {
     for (const auto &[quantity, value] : terms)

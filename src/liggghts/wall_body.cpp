@@ -53,7 +53,12 @@ WallBody::Vector WallBody::force() const {
 }
 
 double WallBody::total_mass() const {
-  return sum([this](int i) { return atom->rmass[i]; });
+  double largest = 0; // the unit of the sum: all masses may be small
+  for (int i = 0; i < atom->nlocal; i++)
+    if (in_group(i))
+      largest = std::max(largest, atom->rmass[i]);
+  const double unit = cdem::unit_for(-smallest_of_ranks(lmp, -largest));
+  return unit * sum([=](int i) { return atom->rmass[i] / unit; });
 }
 
 int WallBody::count() const {

@@ -80,7 +80,7 @@ run 40 every 20 "print good"
     grown = deck.replace("run 40 every", "run 40 pre no every").replace("print good", "set atom 1 diameter 0.006")
     status, output = start(grown, tmp_path)
     assert status != 0
-    assert "atom 1 of type 1 has radius 0.003, larger than all of its type as the run began, 0.002" in output
+    assert "types, radii or masses have changed since the last run: the next one must not be 'pre no'" in output
 
 
 def test_collections_by_size_touch(tmp_path: Path) -> None:

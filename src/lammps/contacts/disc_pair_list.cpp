@@ -187,6 +187,11 @@ void DiscPairList::refresh(double moved) {
   timer->stamp(Timer::NEIGH);
 }
 
+void DiscPairList::take_places() {
+  rows.fill(0, atom->nlocal, 0);
+  room_left = 0;
+}
+
 double DiscPairList::largest_reach() const {
   double reach = 0;
   if (rows.has_clumps())

@@ -44,6 +44,9 @@ public:
   // moved further since the last call (m); without it, the motion is measured.
   void refresh(double moved);
   void refresh() { refresh(room_left); }
+  // To be called when atoms may have been moved since the last step: takes their places to the rows, and the next
+  // refresh() measures how far they are.
+  void take_places();
   // To be called when the time step has changed: the scale of the dashpots depends on it.
   void renew_constants();
 

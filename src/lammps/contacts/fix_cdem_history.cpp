@@ -24,7 +24,7 @@ constexpr tagint NOBODY = 0;
 
 // The names of the remembered numbers, in restart files.
 struct Names {
-  static constexpr int VERSION = 2;
+  static constexpr int VERSION = 3;
   int count;
   char name[FixCDEMHistory::MOST][cdem::LONGEST_NAME + 1];
 };
@@ -262,24 +262,19 @@ int FixCDEMHistory::unpack_exchange(int i, double *buf) {
 }
 
 int FixCDEMHistory::pack_restart(int i, double *buf) {
-  const int n = 1 + pack(i, buf + 1);
-  buf[0] = n;
-  return n;
+  return Shearbox::HEAD_OF_ATOM + pack(i, Shearbox::begin_atom(buf, atom->tag[i], packed_size(count[i])));
 }
 
 void FixCDEMHistory::unpack_restart(int i, int nth) {
-  const double *const block = Shearbox::block_of_atom(atom->extra[i], nth);
-  if (int(block[0]) != 1 + packed_size(int(block[1])))
-    error->one(FLERR, "Pair style cdem: the restart file is of another version of this style: contacts of atom {}",
-               atom->tag[i]);
-  unpack(i, block + 1);
+  const auto size = [this](const double *numbers) { return packed_size(int(numbers[0])); };
+  unpack(i, Shearbox::state_of_atom(lmp, style, i, nth, size));
 }
 
-int FixCDEMHistory::size_restart(int i) { return 1 + packed_size(count[i]); }
+int FixCDEMHistory::size_restart(int i) { return Shearbox::HEAD_OF_ATOM + packed_size(count[i]); }
 
 int FixCDEMHistory::maxsize_restart() {
   const int n = count.empty() ? 0 : *std::max_element(count.begin(), count.begin() + atom->nlocal);
   int most;
   MPI_Allreduce(&n, &most, 1, MPI_INT, MPI_MAX, world);
-  return 1 + packed_size(most);
+  return Shearbox::HEAD_OF_ATOM + packed_size(most);
 }

@@ -22,7 +22,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <string>
 
 using namespace LAMMPS_NS;
@@ -98,12 +97,16 @@ void PairCDEM::check_setting() const {
   if (!Shearbox::is_sphere(atom))
     error->all(FLERR, "Pair style cdem needs atom_style sphere");
   // LAMMPS unsets comm_x_only if radii can change.
-  if (strcmp(atom->atom_style, "sphere") == 0 && !atom->avec->comm_x_only)
+  if (const AtomVec *const sphere = atom->style_match("sphere"); sphere && !sphere->comm_x_only)
     error->all(FLERR, "Pair style cdem: atom_style sphere 1 must be sphere or sphere 0: radii cannot change in a run");
   if (!atom->tag_enable)
     error->all(FLERR, "Pair style cdem: atom_modify id no must be yes: contacts are remembered by the ids of grains");
   if (!comm->ghost_velocity)
     error->all(FLERR, "Pair style cdem needs 'comm_modify vel yes'");
+  if (neighbor->includegroup || Shearbox::group_of_ghosts(*comm))
+    error->all(FLERR,
+               "Pair style cdem: neigh_modify include and comm_modify group must be all: atoms outside the group "
+               "would touch nothing; walls have no contacts with each other anyway");
   if (!grains || !grains->are_moved())
     error->all(FLERR, "Pair style cdem needs a fix cdem/integrate: atoms outside its group are walls");
   if (const auto *shape = FixCDEMShape::find(lmp))
@@ -183,6 +186,19 @@ bool PairCDEM::resists_slip(const cdem::Coefficients &c) const {
   return c.material.mu > 0 || turning.stiffness > 0 || turning.dashpot > 0;
 }
 
+// The angle of such a wall is not moved on: it would be drawn, and would act, as if it stood still.
+void PairCDEM::check_turning_walls() const {
+  for (int i = 0; i < atom->nlocal; i++) {
+    const cdem::GrainShape &shape = contacts.rows.shape_of_type(atom->type[i]);
+    if (atom->omega[i][2] != 0 && !grains->is_free(i) && (shape.is_line() || shape.discs().size() > 1))
+      error->one(
+          FLERR,
+          "Pair style cdem: atom {} of type {} is a wall of several discs, or a piece of a smooth wall, and has a "
+          "spin of {} rad/s: such walls do not turn; take walls of single discs, or set omega 0 0 0",
+          atom->tag[i], atom->type[i], atom->omega[i][2]);
+  }
+}
+
 // A contact with a wall's line remembers nothing: the disc may go from one piece of the wall to the next.
 void PairCDEM::check_lines() const {
   for (int line = 1; line <= atom->ntypes; line++)
@@ -237,6 +253,7 @@ void PairCDEM::compute(int eflag, int vflag) {
   const bool rebuilt = neighbor->ago == 0;
   if (rebuilt) {
     check_atoms();
+    check_turning_walls();
     rows.map();
   }
 

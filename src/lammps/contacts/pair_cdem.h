@@ -86,6 +86,7 @@ private:
   void check_setting() const;
   void check_atoms() const;
   void check_lines() const;
+  void check_turning_walls() const;
   bool resists_slip(const cdem::Coefficients &) const;
   void check_periods() const;
   void find_largest_radii();

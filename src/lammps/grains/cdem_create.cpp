@@ -30,6 +30,9 @@ void CDEMCreate::command(int narg, char **arg) {
     error->all(FLERR, "cdem/create needs atom_style sphere");
   if (!atom->tag_enable)
     error->all(FLERR, "cdem/create needs atom ids");
+  if (atom->nextra_store > 0)
+    error->all(FLERR, "cdem/create: after read_restart a run must come first ('run 0'): fixes still have to take what "
+                      "the restart file has of the atoms");
 
   Words words(lmp, "cdem/create", narg, arg);
   type = words.count("type");

@@ -120,6 +120,39 @@ bool FixCDEMGrains::scene_is_as_kept() {
   return true;
 }
 
+bool FixCDEMGrains::moved_against_each_other() const {
+  double far[4] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY}, all[4]; // x, -x, y, -y
+  for (int i = 0; i < atom->nlocal; i++) {
+    const Shift shift = shift_from_kept(i);
+    if (!is_free(i) || std::isnan(shift.x)) // NaN: it has come since
+      continue;
+    const double of[4] = {shift.x, -shift.x, shift.y, -shift.y};
+    for (int k = 0; k < 4; k++)
+      far[k] = std::max(far[k], of[k]);
+  }
+  MPI_Allreduce(far, all, 4, MPI_DOUBLE, MPI_MAX, world);
+  const double most = 2 * rounding();
+  return all[0] + all[1] > most || all[2] + all[3] > most;
+}
+
+std::uint64_t FixCDEMGrains::members() const {
+  if (!mover) // fix cdem/integrate is gone: there are no grains
+    return 0;
+  std::uint64_t mine = 0, all;
+  for (int i = 0; i < atom->nlocal; i++) {
+    Shearbox::Fingerprint atom_of_list;
+    atom_of_list.add(atom->tag[i]).add(atom->type[i]).add(is_free(i)).add(atom->radius[i]).add(atom->rmass[i]);
+    mine += atom_of_list.value();
+  }
+  MPI_Allreduce(&mine, &all, 1, MPI_UINT64_T, MPI_SUM, world);
+  return all;
+}
+
+void FixCDEMGrains::post_run() {
+  keep_scene();
+  members_of_run = members();
+}
+
 FixCDEMGrains::Periods FixCDEMGrains::periods() const {
   const bool y = domain->periodicity[1];
   return {domain->periodicity[0] ? domain->xprd : 0, y ? domain->yprd : 0, y ? domain->xy : 0};
@@ -233,15 +266,15 @@ void FixCDEMGrains::restart(char *buf) {
 }
 
 int FixCDEMGrains::pack_restart(int i, double *buf) {
-  buf[0] = NCOLUMNS + 1;
-  std::copy_n(state[i], int(NCOLUMNS), buf + 1);
-  return NCOLUMNS + 1;
+  std::copy_n(state[i], int(NCOLUMNS), Shearbox::begin_atom(buf, atom->tag[i], NCOLUMNS));
+  return size_restart(i);
 }
 
 void FixCDEMGrains::unpack_restart(int i, int nth) {
-  std::copy_n(Shearbox::state_of_atom(lmp, style, atom->extra[i], nth, NCOLUMNS), int(NCOLUMNS), state[i]);
+  const auto size = [](const double *) { return int(NCOLUMNS); };
+  std::copy_n(Shearbox::state_of_atom(lmp, style, i, nth, size), int(NCOLUMNS), state[i]);
 }
 
-int FixCDEMGrains::size_restart(int) { return NCOLUMNS + 1; }
+int FixCDEMGrains::size_restart(int) { return Shearbox::HEAD_OF_ATOM + NCOLUMNS; }
 
-int FixCDEMGrains::maxsize_restart() { return NCOLUMNS + 1; }
+int FixCDEMGrains::maxsize_restart() { return Shearbox::HEAD_OF_ATOM + NCOLUMNS; }

@@ -75,6 +75,11 @@ public:
   // the box, or by a rounding error (balance shift): then it is put back where it was.
   bool scene_is_as_kept();
   void restore_forces() const;
+  // Whether grains have other places to each other than those that were kept, on all ranks together.
+  bool moved_against_each_other() const;
+  // Whether the atoms are not those of the last run, or others are grains, or their types, radii or masses are others:
+  // what was prepared for that run is wrong for them. On all ranks together.
+  bool has_new_members() const { return members() != members_of_run; }
 
   // --- mass and inertia ---
   // 1/m (1/kg) and 1/I (1/(kg m^2)) of an own atom, 0 for walls.
@@ -102,7 +107,7 @@ public:
   cdem::StepRule step_rule() const;
 
   int setmask() override { return 0; }
-  void post_run() override { keep_scene(); }
+  void post_run() override;
   double memory_usage() override;
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
@@ -138,11 +143,12 @@ private:
   double rounding() const;
   std::uint64_t fingerprint_of_grains() const;
   std::uint64_t fingerprint_of_rules() const;
+  std::uint64_t members() const;
 
   double **state = nullptr; // NCOLUMNS per atom
   Fix *mover = nullptr;
   std::vector<double> inertias; // by type
-  std::uint64_t rules = 0;
+  std::uint64_t rules = 0, members_of_run = 0;
   bool scene_is_new = false; // a step has been made since it was kept
   struct Kept {              // in restart files
     static constexpr int VERSION = 2;

@@ -28,7 +28,8 @@
 // met part, as walls move, both bear a disc that is over the gap, from one step to the next, and one where they meet
 // again: the forces jump.
 //
-// displace_atoms rotate turns the places of grains about a point, and leaves the angle of each as it is.
+// displace_atoms rotate turns the places of grains about a point, and leaves the angle of each as it is. Walls of
+// several discs or of lines do not turn: with a spin, as fix move rotate gives it, they are refused.
 //
 // Every atom type needs one template. Centre of mass, area and inertia are those of the union of the discs, see
 // core/grain_shape.h. At most one fix of this style may exist. Without it, all atoms are single discs.

@@ -103,4 +103,12 @@ inline std::vector<std::string> states_left(LAMMPS *lmp, const char *style) {
   return ids;
 }
 
+// The group that comm_modify group leaves ghosts of, as an index; 0: all.
+inline int group_of_ghosts(const Comm &comm) {
+  struct Look : Comm {
+    using Comm::bordergroup;
+  };
+  return comm.*&Look::bordergroup;
+}
+
 } // namespace Shearbox

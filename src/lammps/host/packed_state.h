@@ -4,9 +4,11 @@
 // when fields are added, removed, or get another meaning.
 #pragma once
 
+#include "atom.h"
 #include "error.h"
 #include "fmt/format.h"
 #include "lammps.h"
+#include "lmptype.h"
 
 #include <cstdio>
 #include <cstring>
@@ -51,18 +53,36 @@ template <class State> State read_state(LAMMPS_NS::LAMMPS *lmp, const char *styl
   return state;
 }
 
-// What a fix keeps of an atom in restart files, `count` numbers. LAMMPS passes the blocks of all fixes one after the
-// other, each with its length in front; `nth` is the place of this fix.
-inline const double *block_of_atom(const double *extra, int nth) {
-  for (int skip = 0; skip < nth; skip++)
-    extra += int(*extra);
-  return extra;
+// What a fix keeps of an atom in restart files: how many numbers there are, as LAMMPS needs it, the id of the atom, and
+// the numbers. After read_restart LAMMPS holds the blocks by index, apart from the atoms, until the fixes are there;
+// commands that delete or add atoms meanwhile leave them to others.
+constexpr int HEAD_OF_ATOM = 2;
+
+inline double *begin_atom(double *block, LAMMPS_NS::tagint tag, int count) {
+  block[0] = HEAD_OF_ATOM + count;
+  block[1] = LAMMPS_NS::ubuf(tag).d;
+  return block + HEAD_OF_ATOM;
 }
-inline const double *state_of_atom(LAMMPS_NS::LAMMPS *lmp, const char *style, const double *extra, int nth, int count) {
-  const double *const block = block_of_atom(extra, nth);
-  if (int(*block) != 1 + count)
-    refuse_state(lmp, style, fmt::format("{} numbers of an atom where {} are needed", int(*block) - 1, count));
-  return block + 1;
+
+// LAMMPS passes the blocks of all fixes one after the other; `nth` is the place of this fix. `count` tells from the
+// numbers how many there should be.
+template <class Count>
+const double *state_of_atom(LAMMPS_NS::LAMMPS *lmp, const char *style, int i, int nth, Count count) {
+  const double *block = lmp->atom->extra[i];
+  for (int skip = 0; skip < nth; skip++)
+    block += int(*block);
+  const double *const numbers = block + HEAD_OF_ATOM;
+  if (int(*block) < HEAD_OF_ATOM || int(*block) != HEAD_OF_ATOM + count(numbers))
+    lmp->error->one(FLERR,
+                    "Fix {}: the restart file has no state of atom {} that this version of Shearbox knows: it was "
+                    "written by another version, or atoms were added since read_restart: for these put 'run 0' before",
+                    style, lmp->atom->tag[i]);
+  if (LAMMPS_NS::tagint(LAMMPS_NS::ubuf(block[1]).i) != lmp->atom->tag[i])
+    lmp->error->one(FLERR,
+                    "Fix {}: atom {} has the state of atom {} from the restart file: atoms were deleted, or numbered "
+                    "anew, since read_restart: put 'run 0' before that",
+                    style, lmp->atom->tag[i], LAMMPS_NS::tagint(LAMMPS_NS::ubuf(block[1]).i));
+  return numbers;
 }
 
 } // namespace Shearbox

@@ -196,6 +196,20 @@ void FixCDEMIntegrate::setup_pre_exchange() {
     if (!grains->is_free(i))
       grains->set_acceleration(i, {0, 0, 0});
   goes_on = grains->scene_is_as_kept() && !step.is_to_be_chosen();
+  if (!goes_on && grains->moved_against_each_other() && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix cdem/integrate {}: grains were moved one against another since the last step, as by set, "
+                   "displace_atoms or read_dump: contacts keep their springs, and grains their angles",
+                   id);
+}
+
+// What follows from atoms and groups is prepared with a setup.
+void FixCDEMIntegrate::refuse_new_members() const {
+  if (grains->has_new_members())
+    error->all(FLERR,
+               "Fix cdem/integrate {}: atoms, their group, types, radii or masses have changed since the last run: the "
+               "next one must not be 'pre no'",
+               id);
 }
 
 void FixCDEMIntegrate::setup_post_neighbor() { post_neighbor(); }
@@ -267,7 +281,10 @@ void FixCDEMIntegrate::end_of_step() {
 }
 
 void FixCDEMIntegrate::initial_integrate(int) {
-  if (update->dt != known_dt) // by timestep, before a run without a setup
+  const bool without_setup = update->ntimestep == update->firststep + 1 && !is_first;
+  if (without_setup)
+    refuse_new_members();
+  if (update->dt != known_dt) // by timestep, before such a run
     reset_dt();
   if (guard.is_due())
     guard.check();

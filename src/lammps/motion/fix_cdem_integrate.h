@@ -51,9 +51,11 @@
 // so gives the same bits, whatever step number it has (in a periodic box: those of the run that wrote the restart
 // file). Energy and pressure of the contacts are those that setup computes, where dashpots follow other velocities. If
 // anything has been changed since (grains moved, deleted, of another mass or velocity; coefficients, gravity, time
-// step, box) it begins with those of the scene as it is. The forces of other fixes are taken anew at the start of each
-// run: those that depend on velocities, such as viscous, change the last bits. rerun is refused, and so is a run of
-// clumps without the fix cdem/shape that they had.
+// step, box) it begins with those of the scene as it is. Where grains were moved one against another, as by set or
+// read_dump, contacts keep their springs and grains their angles, which a warning tells. A run that is "pre no" must
+// have the atoms, group, types, radii and masses of the one before. The forces of other fixes are taken anew at the
+// start of each run: those that depend on velocities, such as viscous, change the last bits. rerun is refused, and so
+// is a run of clumps without the fix cdem/shape that they had.
 #pragma once
 
 #include "grains/fix_cdem_grains.h"
@@ -120,6 +122,7 @@ private:
   void tell_rules();
   void refuse_second_integrator() const;
   void refuse_lost_shapes() const;
+  void refuse_new_members() const;
   void warn_of_belts() const;
   void take_accelerations();
   double smallest_disc() const;

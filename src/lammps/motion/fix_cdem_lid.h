@@ -24,7 +24,8 @@
 // Of constant volume it is a lid that does not move, whose stress is the force on it: fix cdem/move with speed 0.
 //
 // stress, width and thickness must be given. The mass of the group must be positive; its discs must not be in the group
-// of fix cdem/integrate, nor in that of another fix of style cdem/lid or cdem/move. Needs dimension 2 and atom_style
+// of fix cdem/integrate, nor in that of another fix that moves atoms; fixes that set forces on them, such as setforce,
+// are warned of. Needs dimension 2 and atom_style
 // sphere.
 //
 // Global vector: 1 applied stress (Pa), 2 felt stress = N/(W T) (Pa), 3 place of the inner face (m), for a lid on top

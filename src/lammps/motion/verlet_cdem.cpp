@@ -108,6 +108,8 @@ void VerletCDEM::run(int n) {
   run_start = update->ntimestep;
   const bigint last = run_start + n;
   const bool can_glide = hindrance().empty(); // fix_modify may have changed it before a run without a setup
+  if (can_glide)
+    contacts->take_places(); // commands may have moved atoms, before such a run
   while (update->ntimestep < last && !stopped()) {
     const bigint look = std::min(last, next_look());
     if (can_glide && glide_to(look))

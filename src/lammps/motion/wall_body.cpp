@@ -14,6 +14,7 @@
 #include "group.h"
 #include "modify.h"
 #include "update.h"
+#include "utils.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,18 +50,36 @@ void WallBody::init() {
     if (const bigint n = count_also_in(group->bitmask[grains->group_of_grains()]))
       error->all(FLERR, "Fix {} {}: {} atoms of group {} are also in group {}, which fix cdem/integrate moves", style,
                  id, n, name, group->names[grains->group_of_grains()]);
-  for (int i = 0; i < modify->nfix; i++) {
-    const auto *other = dynamic_cast<WallBody *>(modify->fix[i]);
-    if (!other || other == this)
-      continue;
-    if (const bigint n = count_also_in(other->groupbit))
-      error->all(FLERR, "Fix {} {}: {} atoms of group {} are also moved by fix {} {}", style, id, n, name, other->style,
-                 other->id);
-  }
-
+  refuse_other_movers();
   pre_neighbor();
   for (int i : discs)
     std::fill_n(atom->omega[i], 3, 0.0);
+}
+
+namespace {
+bool sets_forces(const std::string &style) {
+  return utils::strmatch(style, "^setforce") || utils::strmatch(style, "^freeze") ||
+         utils::strmatch(style, "^aveforce");
+}
+} // namespace
+
+// Fixes that set forces leave nothing of what the grains do.
+void WallBody::refuse_other_movers() const {
+  for (int k = 0; k < modify->nfix; k++) {
+    const Fix *const other = modify->fix[k];
+    const bool moves = other->time_integrate;
+    if (other == this || !(moves || sets_forces(other->style)))
+      continue;
+    const bigint n = count_also_in(other->groupbit);
+    if (n > 0 && moves)
+      error->all(FLERR, "Fix {} {}: {} atoms of group {} are also moved by fix {} {}", style, id, n,
+                 group->names[igroup], other->style, other->id);
+    if (n > 0 && comm->me == 0)
+      error->warning(FLERR,
+                     "Fix {} {}: fix {} of style {} sets the forces on {} of its atoms: what grains do to them is not "
+                     "felt",
+                     style, id, other->id, other->style, n);
+  }
 }
 
 bigint WallBody::count_also_in(int other_groupbit) const {
@@ -85,11 +104,20 @@ void WallBody::pre_neighbor() {
       discs.push_back(i);
 }
 
-template <class Term> double WallBody::sum(Term term) const {
+template <class Term> double WallBody::sum(Term term, double unit) const {
   cdem::ExactSum mine;
   for (int i : discs)
-    mine.add(term(i));
-  return Shearbox::over_ranks(mine, world);
+    mine.add(term(i) / unit);
+  return Shearbox::over_ranks(mine, world) * unit;
+}
+
+// Of terms that may all be small, such as the masses of tiny discs.
+template <class Term> double WallBody::sum_of_small(Term term) const {
+  double mine = 0, most;
+  for (int i : discs)
+    mine = std::max(mine, std::fabs(term(i)));
+  MPI_Allreduce(&mine, &most, 1, MPI_DOUBLE, MPI_MAX, world);
+  return sum(term, cdem::unit_for(most));
 }
 
 double WallBody::total_force(Axis axis) const {
@@ -97,11 +125,11 @@ double WallBody::total_force(Axis axis) const {
 }
 
 double WallBody::momentum(Axis axis) const {
-  return sum([=](int i) { return atom->rmass[i] * atom->v[i][axis]; });
+  return sum_of_small([=](int i) { return atom->rmass[i] * atom->v[i][axis]; });
 }
 
 double WallBody::total_mass() const {
-  return sum([this](int i) { return atom->rmass[i]; });
+  return sum_of_small([this](int i) { return atom->rmass[i]; });
 }
 
 void WallBody::move_rows(GrainRows *where) { rows = where; }

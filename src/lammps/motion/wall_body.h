@@ -73,7 +73,9 @@ protected:
   Booked booked;
 
 private:
-  template <class Term> double sum(Term term) const;
+  template <class Term> double sum(Term term, double unit = 1) const;
+  template <class Term> double sum_of_small(Term term) const;
+  void refuse_other_movers() const;
   bigint count_also_in(int other_groupbit) const;
 
   FixCDEMGrains *grains = nullptr;

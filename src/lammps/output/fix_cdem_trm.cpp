@@ -10,8 +10,7 @@
 using namespace LAMMPS_NS;
 
 namespace {
-constexpr int SIZE = 2;                // numbers per grain
-constexpr int RESTART_SIZE = 1 + SIZE; // with their count in front, as LAMMPS needs it
+constexpr int SIZE = 2; // numbers per grain
 } // namespace
 
 FixCDEMTRM::FixCDEMTRM(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) {
@@ -64,16 +63,15 @@ int FixCDEMTRM::unpack_exchange(int i, double *buf) {
 }
 
 int FixCDEMTRM::pack_restart(int i, double *buf) {
-  buf[0] = RESTART_SIZE;
-  pack_exchange(i, buf + 1);
-  return RESTART_SIZE;
+  pack_exchange(i, Shearbox::begin_atom(buf, atom->tag[i], SIZE));
+  return size_restart(i);
 }
 
 void FixCDEMTRM::unpack_restart(int i, int nth) {
-  const double *const of_atom = Shearbox::state_of_atom(lmp, style, atom->extra[i], nth, SIZE);
-  sums[i] = {of_atom[0], of_atom[1]};
+  const double *const numbers = Shearbox::state_of_atom(lmp, style, i, nth, [](const double *) { return SIZE; });
+  sums[i] = {numbers[0], numbers[1]};
 }
 
-int FixCDEMTRM::size_restart(int) { return RESTART_SIZE; }
+int FixCDEMTRM::size_restart(int) { return Shearbox::HEAD_OF_ATOM + SIZE; }
 
-int FixCDEMTRM::maxsize_restart() { return RESTART_SIZE; }
+int FixCDEMTRM::maxsize_restart() { return Shearbox::HEAD_OF_ATOM + SIZE; }
