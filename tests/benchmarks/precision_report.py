@@ -27,7 +27,6 @@ from whole_tests import SPEEDS, REFERENCE, SETTINGS, STRESSES, Outcome, Setting
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 MARKERS = {CDEM: "o", STOCK: "s"}
-TARGET = 30  # times less time than stock LAMMPS at the paper's settings
 SIGNIFICANT = 2  # standard errors
 VISIBLE = (2, 5)  # differences of means, %
 
@@ -348,7 +347,6 @@ def draw_tests(settings: dict[Setting, list[Outcome]], stock: float | None, file
                 axes.annotate(extra[0], (x, y), (5, -8 if below else 3), textcoords="offset points", fontsize=7)
         if stock:
             axes.axvline(stock, color=COLOURS[STOCK], linewidth=1)
-            axes.axvline(stock / TARGET, color=COLOURS[STOCK], linewidth=1, linestyle=":")
         axes.axvline(seconds_a_test(settings[REFERENCE]), color="black", linewidth=1)
         axes.set_title(measure.name, fontsize=10)
         axes.set(xscale="log", yscale="log", ylim=(LEAST, 100))
@@ -376,7 +374,6 @@ def add_key(figure: plt.Figure, settings: dict[Setting, list[Outcome]], stock: b
     entries.append(entry("reference, cdem", color="black"))
     if stock:
         entries.append(entry("reference, LAMMPS", color=COLOURS[STOCK]))
-        entries.append(entry(f"{TARGET} times less", color=COLOURS[STOCK], ls=":"))
     figure.legend(handles=entries, ncols=4, fontsize=8, loc="upper center")
 
 

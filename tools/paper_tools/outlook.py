@@ -33,7 +33,20 @@ PANELS = {
 }
 COHESIONS = {"c": "c by the lid (kPa)", "c_plane": "c by the shear plane (kPa)"}
 SAME_SOLID = 1e-4  # how much solid fractions of one packing differ, consolidated with other contacts: 2e-5
-TABLE = ["phi", "phi_plane", "c", "c_plane", "dilation_deg", "trm", "mean", "mean_plane", "end", "inertial", "solid"]
+TABLE = [
+    "phi",
+    "phi_plane",
+    "c",
+    "c_plane",
+    "dilation_deg",
+    "late_rate",
+    "trm",
+    "mean",
+    "mean_plane",
+    "end",
+    "inertial",
+    "solid",
+]
 
 
 @dataclass(frozen=True)
