@@ -8,9 +8,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from engine import Disc, Frame
 
 Box = tuple[float, float, float, float]
+
+# Of law and number of ranks: both laws, and more than one rank, for cases about neither.
+both_laws = pytest.mark.parametrize(("law", "ranks"), [("direct", 1), ("incremental", 1), ("direct", 4)])
 
 
 def lattice(nx: int, ny: int, overlap: float, speed: float = 0, seed: int = 1) -> tuple[list[Disc], Box]:

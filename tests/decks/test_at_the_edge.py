@@ -11,14 +11,11 @@ from typing import Any
 import numpy as np
 import pytest
 from engine import DECKS, Disc, Run, run, same_bits, start
-from scenes import lattice, mini_box
+from scenes import both_laws, lattice, mini_box
 
 MINI_BOX = (DECKS / "mini_box.in").read_text()
 START = "include ${decks}/start.in\n"
 END = "include ${decks}/end.in\n"
-
-# Both laws, and more than one rank; where a case is about neither, that is enough.
-anywhere = pytest.mark.parametrize(("law", "ranks"), [("direct", 1), ("incremental", 1), ("direct", 4)])
 
 
 # --- how LAMMPS keeps its atoms -----------------------------------------------------------------------------------------
@@ -107,7 +104,7 @@ thermo        10
 """
 
 
-@anywhere
+@both_laws
 def test_a_box_without_grains(tmp_path: Path, law: str, ranks: int) -> None:
     """Walls alone stay where they are, and feel nothing; grains may come between two runs."""
     deck = EMPTY + "thermo_style custom step c_e c_t pe press\nfix move grains cdem/integrate gravity 0 -10\n"
@@ -144,7 +141,7 @@ def test_grains_poured_into_a_box_without(tmp_path: Path) -> None:
     assert speeds[3] - speeds[1] == pytest.approx(np.full(3, -10 * 2000 * 2e-8), rel=1e-9)
 
 
-@anywhere
+@both_laws
 def test_a_grain_alone(tmp_path: Path, law: str, ranks: int) -> None:
     """It crosses all borders of box and ranks, some ranks have nothing, and keeps its velocity and spin to the bit."""
     grain = Disc(-0.015, -0.015, vx=3, vy=4, omega=70)
@@ -182,7 +179,7 @@ def test_instructions(tmp_path: Path, law: str, style: str, instructions: str) -
 MOVE = "fix move grains cdem/integrate\ntimestep 1e-7\nthermo 100\nthermo_modify format float %.17g\n"
 
 
-@anywhere
+@both_laws
 def test_tilted_box(tmp_path: Path, law: str, ranks: int) -> None:
     """A lattice whose periods are tilted by one lattice constant is the same lattice."""
     discs, box = lattice(6, 6, 1e-5)
@@ -201,7 +198,7 @@ FLOWS = {  # fix deform, and the velocity gradient of its flow, dvx/dx dvx/dy dv
 
 
 @pytest.mark.parametrize("flow", FLOWS)
-@anywhere
+@both_laws
 def test_deforming_box(tmp_path: Path, law: str, ranks: int, flow: str) -> None:
     """A lattice that flows with its box: every grain is in the place of every other, so no force acts on any, dashpots
     and all, nor at the borders of the box. Tolerance: LAMMPS's box is a step behind the grains, by 1e-7 m or less; the

@@ -12,17 +12,12 @@ from typing import Any
 import numpy as np
 import pytest
 from engine import DENSITY, Disc, Frame, Run, run, same_bits, start, write_data
-from scenes import cloud
+from scenes import both_laws, cloud
 
 R = 2e-3  # m, radius of the discs of most clumps here
 SQRT3 = math.sqrt(3)
 FLOOR = Disc(0, -10, 20, type=2)  # flat over the distances here
 FLOOR_BOX = (-11.0, 11.0, -21.0, 1.0)
-
-
-# Both laws, and more than one rank; where a case is about neither, that is enough.
-anywhere = pytest.mark.parametrize(("law", "ranks"), [("direct", 1), ("incremental", 1), ("direct", 4)])
-
 
 Vector = Sequence[float] | np.ndarray
 
@@ -232,7 +227,7 @@ def restitution(z: float) -> float:
     return math.exp(-math.pi * z / math.sqrt(1 - z * z))
 
 
-@anywhere
+@both_laws
 @pytest.mark.parametrize(
     ("h", "mu"), [(0, 0), (0.215, 0), (0.5, 0), (0, 0.2)], ids=["elastic", "h=0.215", "h=0.5", "sliding"]
 )
@@ -266,7 +261,7 @@ def test_bounce_off_centre(tmp_path: Path, law: str, ranks: int, h: float, mu: f
     assert end["mass"][0] == pytest.approx(UNEVEN.mass, rel=1e-14)
 
 
-@anywhere
+@both_laws
 @pytest.mark.parametrize("h", [0, 0.215])
 def test_two_grains_collide_off_centre(tmp_path: Path, law: str, ranks: int, h: float) -> None:
     """Two different grains, each hit beside its centre, at 30 degrees to the axes and on the border of the ranks."""
@@ -354,7 +349,7 @@ def weights(shapes: Sequence[Clump], degrees: float) -> np.ndarray:
     return np.array([part for s in shapes for part in (s.mass * G * x, s.mass * G * y, 0)])
 
 
-@anywhere
+@both_laws
 def test_triple_at_rest_on_a_floor(tmp_path: Path, law: str, ranks: int) -> None:
     """Its two lower discs lie in two gaps of the floor: four contacts at 30 degrees from the vertical, which carry the
     same if smooth, M g/(4 cos 30). Then they stick, and the weight is tilted: normal and tangential springs share the
@@ -380,7 +375,7 @@ def test_triple_at_rest_on_a_floor(tmp_path: Path, law: str, ranks: int) -> None
     assert np.abs(ft).min() > 0.01 * np.abs(fn).max()
 
 
-@anywhere
+@both_laws
 @pytest.mark.parametrize("tilt", [0.0, 5.0])
 def test_triple_at_rest_on_two_others(tmp_path: Path, law: str, ranks: int, tilt: float) -> None:
     """Point down between two that stand on the floor: 3 contacts with each, 4 of each with the floor, 1 of the two with
@@ -422,7 +417,7 @@ def motion(stiffness: np.ndarray, inertia: Vector, start: Vector, t: np.ndarray)
 
 
 @pytest.mark.parametrize("sticks", [False, True], ids=["smooth", "sticking"])
-@anywhere
+@both_laws
 def test_rocking_on_two_discs(tmp_path: Path, law: str, ranks: int, sticks: bool) -> None:
     """A triple on a floor turns by q to and fro on the springs of its two lower discs, l = R to the sides of its centre
     and b below it. On a flat floor I q'' = -(2 kn l^2 - M g b) q: the weight, on discs that swing out below the centre,
@@ -471,7 +466,7 @@ BELOW = float(ROLY.offsets[0, 1])
 
 
 @pytest.mark.parametrize("rolls", [False, True], ids=["smooth", "rolling"])
-@anywhere
+@both_laws
 def test_rocking_like_a_pendulum(tmp_path: Path, law: str, ranks: int, rolls: bool) -> None:
     """On a smooth floor the centre of mass stays where it is in x: I q'' = -M g b q. Rolling, it turns about the point
     of contact, h = R - b below, and the floor's curvature counts: (I + M h^2) q'' = -M g (b - R^2/(R + R_floor)) q.
@@ -897,7 +892,7 @@ def test_orient(tmp_path: Path, ranks: int) -> None:
         assert abs(np.corrcoef(np.delete(other, 7), grains)[0, 1]) < 0.15
 
 
-@anywhere
+@both_laws
 @pytest.mark.parametrize(("x", "y"), [(-0.004, 0.001), (0.017, -0.0195)], ids=["between-ranks", "periodic"])
 def test_virial(tmp_path: Path, law: str, ranks: int, x: float, y: float) -> None:
     """P = force x vector between the centres of mass / area, for the contact of two grains beside their centres; the
