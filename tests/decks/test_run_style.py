@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """run_style verlet/cdem where it might part from run_style verlet. That it gives the same bits in a packing is tested in
-test_same_bits.py and test_clumps.py; the decks of all other tests use it too."""
+test_same_bits.py and test_clump_bits.py; the decks of all other tests use it too."""
 
 from __future__ import annotations
 
