@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 import pytest
 from engine import Run, run
-from test_own_model import INPUT, TEST
+from input_decks import INPUT, SHEARING, SPECIMEN
 
 from shearbox_tools.dumps import Dump
 from shearbox_tools.files import CONTACTS_DUMP, GRAINS_DUMP, PACKED_TABLE, SHEAR_TABLE
 from shearbox_tools.readers import Columns, read_shear
 
 KN = 1e8  # N/m
-SHORT: dict[str, Any] = {"model": "few", "speed": 50, "rest": 0.01}
+SHORT: dict[str, Any] = SPECIMEN | SHEARING | {"model": "few", "speed": 50, "rest": 0.01}
 MODEL = """
 variable width       index 0.03
 variable half_height index 0.012
@@ -30,7 +30,7 @@ variable shape       index single
 
 def carried_out(folder: Path, deck: str, **more: Any) -> Run:
     (folder / "few.in").write_text(MODEL)
-    variables: dict[str, Any] = TEST | SHORT | {"models": folder, **more}
+    variables: dict[str, Any] = SHORT | {"models": folder, **more}
     return run((INPUT / f"{deck}.in").read_text(), folder, **variables)
 
 

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from clumps import END, R, SQRT3, TRIPLE, UNEVEN, Clump, Vector, begin, contacts, cross, dump, dump_contacts
 from engine import Disc, Run, run, same_bits
+from impact import restitution
 from scenes import both_laws
 
 FLOOR = Disc(0, -10, 20, type=2)  # flat over the distances here
@@ -146,10 +147,6 @@ def test_turning_together(tmp_path: Path) -> None:
 STEPS_PER_CONTACT = 400
 # The dashpot's error at the ends of the contact is second order: 2e-5 and 3e-5 at 400 steps; undamped, it is 1e-5.
 COLLIDE = "timestep ${dt}\nrun ${steps}\n" + END
-
-
-def restitution(z: float) -> float:
-    return math.exp(-math.pi * z / math.sqrt(1 - z * z))
 
 
 @both_laws

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from crowd import CROWD_START, PERIOD, SIDE, SPACING, SWELLING, crowd
 from engine import Disc, Run, run, start, write_data
 from scenes import Box, lattice
-from test_computes import CROWD_START, PERIOD, SIDE, SPACING, SWELLING, crowd
 
 FIELDS = (
     "solid grains mass coordination stress_xx stress_yy stress_xy stress_yx kinetic_xx kinetic_yy kinetic_xy velocity_x "
@@ -118,7 +118,7 @@ def test_hexagonal_lattice_by_cells(tmp_path: Path) -> None:
 
 
 def walled(shape: str) -> list[Disc]:
-    """The crowd of test_computes.py with walls on all sides."""
+    """The crowd of crowd.py with walls on all sides."""
     border = (0, SIDE - 1)
     return [
         replace(d, type=2, vx=0, vy=0, omega=0) if k // SIDE in border or k % SIDE in border else d

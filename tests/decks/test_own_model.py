@@ -5,26 +5,22 @@ from __future__ import annotations
 
 import re
 import shutil
-import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from engine import run, start
+from input_decks import INPUT, SHEARING, SPECIMEN
 
-ROOT = Path(__file__).resolve().parents[2]
-INPUT = ROOT / "input"
-sys.path.insert(0, str(ROOT / "tools"))
-
-from shearbox_tools.dumps import Dump  # noqa: E402
-from shearbox_tools.files import CELLS_DUMP, CONSOLIDATED_RESTART, CONTACTS_DUMP, DISCS_DUMP, GRAINS_DUMP  # noqa: E402
-from shearbox_tools.files import PACKED_TABLE, SHEAR_TABLE, SHEARED_RESTART  # noqa: E402
-from shearbox_tools.grains import area_over_largest  # noqa: E402
-from shearbox_tools.models import read_model  # noqa: E402
-from shearbox_tools.readers import read_row, read_shear  # noqa: E402
-from shearbox_tools.specimen import Film, count_lost  # noqa: E402
-from shearbox_tools.tables import Tables  # noqa: E402
+from shearbox_tools.dumps import Dump
+from shearbox_tools.files import CELLS_DUMP, CONSOLIDATED_RESTART, CONTACTS_DUMP, DISCS_DUMP, GRAINS_DUMP
+from shearbox_tools.files import PACKED_TABLE, SHEAR_TABLE, SHEARED_RESTART
+from shearbox_tools.grains import area_over_largest
+from shearbox_tools.models import read_model
+from shearbox_tools.readers import read_row, read_shear
+from shearbox_tools.specimen import Film, count_lost
+from shearbox_tools.tables import Tables
 
 D = 2e-3  # m, of the discs
 GRAINS, WIDTH, HALF_HEIGHT = 40, 0.03, 0.012
@@ -47,9 +43,9 @@ variable power       index -2
 variable ngrains     index 70
 variable shape       index single
 """
-OPTIONS: dict[str, Any] = {"decks": INPUT, "model": "crosses", "sigma": 100, "seed": 1}
+OPTIONS: dict[str, Any] = SPECIMEN | {"model": "crosses"}
 SHEAR = (INPUT / "shear.in").read_text()
-TEST: dict[str, Any] = OPTIONS | {"speed": 20, "travel": 1, "rows": 20, "frames": 2}
+TEST: dict[str, Any] = OPTIONS | SHEARING
 
 
 def consolidate(folder: Path, **options: Any) -> None:

@@ -7,24 +7,20 @@ import re
 import shutil
 import signal
 import subprocess
-import sys
 import time
 from pathlib import Path
 from typing import Any
 
 import pytest
 from engine import DECKS, ENVIRONMENT, PROGRAM, Frame, run, start
+from input_decks import INPUT
 
-ROOT = Path(__file__).resolve().parents[2]
-INPUT = ROOT / "input"
-sys.path.insert(0, str(ROOT / "tools"))
-
-from shearbox_tools.files import PACKED_RESTART, PACKED_TABLE  # noqa: E402
-from shearbox_tools.models import find_model  # noqa: E402
-from shearbox_tools.named import model_text  # noqa: E402
-from shearbox_tools.presets import DENSITIES, PACKING_FRICTION  # noqa: E402
-from shearbox_tools.readers import read_row  # noqa: E402
-from shearbox_tools.restarts import step_of  # noqa: E402
+from shearbox_tools.files import PACKED_RESTART, PACKED_TABLE
+from shearbox_tools.models import find_model
+from shearbox_tools.named import model_text
+from shearbox_tools.presets import DENSITIES, PACKING_FRICTION
+from shearbox_tools.readers import read_row
+from shearbox_tools.restarts import step_of
 
 SMALL = "TypeA_4x2_2-4_1-circle_auto"
 

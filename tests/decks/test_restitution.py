@@ -23,10 +23,9 @@ from typing import Any
 import numpy as np
 import pytest
 from engine import Disc, run
+from impact import CLUMPS, DECK, DIAMETER, STIFFNESS, restitution, restitution_without_pull
 
 SPEED = 0.1  # m/s
-STIFFNESS = 1e8  # N/m
-DIAMETER = 4e-3
 PITCH = 0.01  # m, between the rows of the collisions
 
 # Diameters of the two discs, with the same effective mass in all three cases, so that one time step suits all.
@@ -37,14 +36,6 @@ KINDS: dict[str, tuple[float, float]] = {  # wall: the second disc is one
 }
 EFFECTIVE_MASS = Disc(0, 0, DIAMETER).mass / 2
 W0 = math.sqrt(STIFFNESS / EFFECTIVE_MASS)
-
-DECK = """
-include ${decks}/start.in
-fix move grains cdem/integrate dt any    # 20 steps a contact and more; the limit of a packing does not matter here
-timestep ${dt}
-run ${steps}
-include ${decks}/end.in
-"""
 
 
 def collide(
@@ -74,15 +65,6 @@ def collide(
     duration = steps * dt - gap / speed - np.array(gaps) / SPEED  # from free flight before and after
     by_kind = [dict(zip(kinds, values.reshape(-1, phases), strict=True)) for values in (speed / SPEED, duration)]
     return by_kind[0], by_kind[1]
-
-
-def restitution(h: float) -> float:
-    return math.exp(-math.pi * h / math.sqrt(1 - h * h))
-
-
-def restitution_without_pull(h: float) -> float:
-    root = math.sqrt(1 - h * h)
-    return math.exp(-h / root * (math.pi - math.atan2(2 * h * root, 1 - 2 * h * h)))
 
 
 # Largest error of e over the phases, at 40 steps a contact, third order in the step: measured are 3e-5, 1.3e-5, 6.4e-5 and
@@ -128,10 +110,6 @@ def test_restitution_is_third_order_in_the_time_step(tmp_path: Path, law: str, h
 
 
 CROSS = "discs 4 1 0 1 0 1 1 -1 0 1 0 -1 1"  # a clump, which is hit centrally from four sides
-CLUMPS = """
-group grains type 3
-fix shape all cdem/shape density ${density} type 1 single type 2 single type 3 ${cross}
-fix move"""
 
 
 @pytest.mark.parametrize("kind", ["equal", "wall", "clump"])

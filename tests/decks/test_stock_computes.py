@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from crowd import CROWD_START, PERIOD, crowd
 from engine import PROGRAM, Disc, Run, run, same_bits, start, write_data
-from test_computes import CROWD_START, PERIOD, crowd
 
 D, OVERLAP, KN = 4e-3, 1e-5, 1e8
 BOX = (-0.02, 0.02, -0.02, 0.02)

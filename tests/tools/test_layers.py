@@ -108,3 +108,12 @@ def test_values_say_whether_they_are_extensive() -> None:
         text = path.read_text(encoding="utf-8")
         for kind in re.findall(r"\b(scalar|vector|array)_flag =", text):
             assert re.search(rf"\bext{kind}\b", text), f"{path}: ext{kind}"
+
+
+def test_no_deck_test_or_study_needs_a_test() -> None:
+    """What several need is in files of its own (scenes.py, bed.py ...): then each can be read, changed and run alone."""
+    tests = SOURCE.parent / "tests"
+    files = [*tests.glob("decks/*.py"), *tests.glob("validation/**/*.py"), *tests.glob("validation/*/run")]
+    assert len(files) > 60
+    found = [path for path in files if re.search(r"^\s*(from|import) test_", path.read_text("utf-8"), re.MULTILINE)]
+    assert found == []
