@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import shutil
 from pathlib import Path
@@ -14,7 +15,14 @@ from engine import run, start
 from input_decks import INPUT, SHEARING, SPECIMEN
 
 from shearbox_tools.dumps import Dump
-from shearbox_tools.files import CELLS_DUMP, CONSOLIDATED_RESTART, CONTACTS_DUMP, DISCS_DUMP, GRAINS_DUMP
+from shearbox_tools.files import (
+    CELLS_DUMP,
+    CONSOLIDATED_RESTART,
+    CONSOLIDATED_TABLE,
+    CONTACTS_DUMP,
+    DISCS_DUMP,
+    GRAINS_DUMP,
+)
 from shearbox_tools.files import PACKED_TABLE, SHEAR_TABLE, SHEARED_RESTART
 from shearbox_tools.grains import area_over_largest
 from shearbox_tools.models import read_model
@@ -96,11 +104,20 @@ def test_a_specimen_of_another_model_is_refused(folder: Path, deck: str, name: s
 
 
 def test_a_floor_of_one_disc(tmp_path: Path) -> None:
-    """From which the width cannot be told: it is not refused."""
+    """From which the width cannot be told: it is not refused, and comes to rest under the stress with all of its grains, which
+    keep their area."""
     sizes = {"width": 0.03, "half_height": 0.05, "dmin": 8e-3, "dmax": 9e-3, "ngrains": 36, "wall_disc": 4}
     options: dict[str, Any] = OPTIONS | {"models": tmp_path, "model": "loose"} | sizes
     (tmp_path / "loose.in").write_text(LOOSE)
-    consolidate(tmp_path, **options)
+    run((INPUT / "pack.in").read_text(), tmp_path, **options)
+    text = (INPUT / "consolidate.in").read_text() + 'print "discs = $(count(floor))"\n'
+    assert run(text, tmp_path, **options).printed("discs") == 1
+    packed, at_rest = (read_row(tmp_path / table) for table in (PACKED_TABLE, CONSOLIDATED_TABLE))
+    assert packed["grains"] == at_rest["grains"] == 36 and at_rest["sigma_kPa"] == 100
+    assert at_rest["unbalanced"] < 1e-4
+    area, before = (row["solid_fraction"] * row["height_m"] * 0.03 for row in (at_rest, packed))
+    assert 36 * math.pi / 4 * 8e-3**2 < area < 36 * math.pi / 4 * 9e-3**2
+    assert area == pytest.approx(before, rel=1e-5)  # solid fractions have six digits
 
 
 def test_grains_that_pull_have_no_inertial_number(tmp_path: Path) -> None:
