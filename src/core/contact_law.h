@@ -11,6 +11,8 @@
 #include "books.h"
 #include "declaration.h"
 
+#include <array>
+
 namespace cdem {
 
 // Force of the normal spring one step ago and now; `pressing` is the part of it that limits friction (N).

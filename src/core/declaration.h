@@ -2,7 +2,6 @@
 // What a contact law tells the rest of the program about itself; laws.h lists the laws.
 #pragma once
 
-#include <array>
 #include <limits>
 
 namespace cdem {

@@ -22,6 +22,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 using namespace LAMMPS_NS;

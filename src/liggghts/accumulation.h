@@ -31,7 +31,6 @@
 #include "granular_pair_style.h"
 #include "pointers.h"
 
-#include <array>
 #include <string>
 #include <vector>
 

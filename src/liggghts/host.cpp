@@ -3,6 +3,7 @@
 
 #include "comm.h"
 #include "error.h"
+#include "input.h"
 
 #include <mpi.h>
 

@@ -5,7 +5,6 @@
 #include "core/exact_sum.h"
 
 #include "fix.h"
-#include "input.h"
 #include "lammps.h"
 #include "modify.h"
 

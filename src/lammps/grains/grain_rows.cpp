@@ -10,7 +10,6 @@
 #include "update.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 

@@ -21,6 +21,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 using namespace LAMMPS_NS;
 

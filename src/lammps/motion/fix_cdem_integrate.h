@@ -68,7 +68,6 @@
 #include "update.h"
 
 #include <string>
-#include <vector>
 
 namespace LAMMPS_NS {
 

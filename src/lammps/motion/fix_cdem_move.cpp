@@ -9,7 +9,6 @@
 #include "update.h"
 
 #include <cmath>
-#include <cstring>
 #include <string>
 
 using namespace LAMMPS_NS;

@@ -6,7 +6,6 @@
 
 #include "atom.h"
 #include "atom_vec.h"
-#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "fix.h"

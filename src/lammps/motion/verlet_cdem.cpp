@@ -14,7 +14,6 @@
 #include "output.h"
 #include "timer.h"
 #include "update.h"
-#include "utils.h"
 
 #include <algorithm>
 

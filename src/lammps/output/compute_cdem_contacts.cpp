@@ -3,7 +3,6 @@
 
 #include "atom.h"
 #include "error.h"
-#include "force.h"
 #include "update.h"
 
 #include <algorithm>

@@ -5,8 +5,6 @@
 #include "grains/fix_cdem_grains.h"
 
 #include "atom.h"
-#include "error.h"
-#include "force.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;

@@ -8,7 +8,6 @@
 #include "atom.h"
 #include "domain.h"
 #include "error.h"
-#include "force.h"
 #include "modify.h"
 #include "update.h"
 

@@ -5,7 +5,6 @@
 #include "motion/fix_cdem_integrate.h"
 
 #include "error.h"
-#include "force.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
