@@ -4,10 +4,8 @@
 #include "core/step_events.h"
 #include "grains/fix_cdem_audit.h"
 #include "grains/fix_cdem_grains.h"
-#include "host/compat.h"
 
 #include "atom.h"
-#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "neighbor.h"
@@ -48,12 +46,6 @@ void DiscPairList::remember_numbers() {
   for (int d = 0; audit && d < 2 + law.books(); d++)
     all.push_back({DASHPOTS[d], "N", d >= 2});
   history->remember(all);
-}
-
-void DiscPairList::exchange_ghosts() {
-  if (rows.has_ghosts() || comm->nprocs > 1)
-    Shearbox::forward_comm(lmp, carrier);
-  rows.expand_ghosts();
 }
 
 void DiscPairList::rebuild(const NeighList *of_grains) {
@@ -376,7 +368,7 @@ const cdem::PairForce &DiscPairList::force(int k) const {
 void DiscPairList::close_list() {
   if (audit && all_have_history()) {
     rows.fill(0, block_starts.back(), 0);
-    exchange_ghosts();
+    rows.exchange_ghosts();
     finish_step_in_books();
   }
   move_history_to_grains();

@@ -29,15 +29,14 @@ class Pair;
 
 class DiscPairList : protected Pointers, public ContactList {
 public:
-  // `pair` sends the rows of own grains (see GrainRows) to their ghosts, by rows.pack() and rows.unpack().
-  DiscPairList(LAMMPS *lmp, Pair *pair) : Pointers(lmp), rows(lmp), search(lmp, rows), feet(lmp, rows), carrier(pair) {}
+  // `pair` sends rows to ghosts, see GrainRows.
+  DiscPairList(LAMMPS *lmp, Pair *pair) : Pointers(lmp), rows(lmp, pair), search(lmp, rows), feet(lmp, rows) {}
 
   // Coefficients by the types of two atoms, from 1 on; index 0 is not used.
   using ByTypes = std::vector<std::vector<cdem::Coefficients>>;
   void init(const cdem::LawTable &, const ByTypes &, const std::string &instructions, FixCDEMHistory *,
             bool keeps_forces);
 
-  void exchange_ghosts(); // gets the rows of ghosts from their owners
   // To be called when LAMMPS has rebuilt its list and the rows are filled.
   void rebuild(const NeighList *);
   // To be called before the forces if rows have moved: rebuilds the list if necessary. `moved`: no point of a grain has
@@ -118,7 +117,6 @@ private:
 
   PairSearch search;
   LineFeet feet;
-  Pair *const carrier;
   FixCDEMAudit *audit = nullptr;
   FixCDEMGrains *grains = nullptr;
   FixCDEMHistory *history = nullptr;

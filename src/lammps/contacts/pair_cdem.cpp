@@ -259,7 +259,7 @@ void PairCDEM::compute(int eflag, int vflag) {
 
   // During a step, v and omega are those of the half step; at setup they are those of the full step.
   rows.fill(0, atom->nlocal, update->setupflag ? 0 : grains->step_rule().forward);
-  contacts.exchange_ghosts();
+  rows.exchange_ghosts();
   if (rebuilt)
     contacts.rebuild(list);
   else

@@ -3,8 +3,10 @@
 
 #include "grains/fix_cdem_grains.h"
 #include "grains/fix_cdem_shape.h"
+#include "host/compat.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "update.h"
@@ -131,7 +133,11 @@ cdem::ClumpColumns GrainRows::columns() {
   return {grains.data(), bodies.data(), first_row.data(), disc_rows.data(), offsets.data(), sums.data(), first_summed};
 }
 
-void GrainRows::expand_ghosts() { expand(own, all); }
+void GrainRows::exchange_ghosts() {
+  if (all > own || comm->nprocs > 1)
+    Shearbox::forward_comm(lmp, carrier);
+  expand(own, all);
+}
 
 void GrainRows::expand(int begin, int end) {
   if (clumps)

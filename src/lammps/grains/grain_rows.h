@@ -19,12 +19,14 @@
 namespace LAMMPS_NS {
 
 class FixCDEMGrains;
+class Pair;
 
 class GrainRows : protected Pointers {
 public:
   static constexpr int COMM_SIZE = 9; // doubles that a ghost is sent: its row and its angle
 
-  explicit GrainRows(LAMMPS *lmp) : Pointers(lmp) {}
+  // `pair` sends rows to ghosts, by pack() and unpack().
+  GrainRows(LAMMPS *lmp, Pair *pair) : Pointers(lmp), carrier(pair) {}
 
   void init(FixCDEMGrains *, const cdem::Kernels &);
 
@@ -36,7 +38,6 @@ public:
   // Rows are in the order of the atoms; rows_of(n) is the number of rows of the first n. If all grains are single
   // discs, row i is that of atom i.
   int rows_of(int natoms) const { return clumps ? first_row[natoms] : natoms; }
-  bool has_ghosts() const { return all > own; }
   int grain(int row) const {
     const int r = row_or_piece(row);
     return clumps ? grain_of_row[r] : r;
@@ -70,7 +71,7 @@ public:
   void fill(int begin, int end, double forward);
   int pack(int n, const int *list, double *buf, int pbc_flag, const int *pbc) const;
   void unpack(int n, int first, const double *buf);
-  void expand_ghosts();
+  void exchange_ghosts();
 
   // Sums the forces on the discs of a block of grains, or of one grain, with the same bits. Then force_on() gives the
   // force on such a grain and the torque about its centre.
@@ -104,9 +105,10 @@ private:
   void expand(int begin, int end);
   cdem::ClumpColumns columns();
 
+  Pair *const carrier;
   FixCDEMGrains *states = nullptr;
   cdem::Kernels kernels{};
-  int own = 0, all = 0; // grains that have rows, less and with ghosts; atoms may have arrived since
+  int own = 0, all = 0; // grains that have rows, without and with ghosts; atoms may have arrived since
   bool clumps = false;  // whether any type has more than one disc
   bool lines = false;   // whether any type is a piece of a line
   std::vector<const cdem::GrainShape *> shapes; // by type

@@ -164,7 +164,7 @@ void VerletCDEM::glide_on(bigint target) {
   begin_step();
   cdem::Fastest fastest = contacts->rows.fastest(atom->nlocal);
   for (;;) {
-    contacts->exchange_ghosts();
+    contacts->rows.exchange_ghosts();
     const bool due = rebuild_is_due(1, fastest);
     contacts->refresh(stride);
     if (due || update->ntimestep == target || stopped())
