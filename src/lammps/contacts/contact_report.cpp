@@ -10,7 +10,7 @@ using namespace LAMMPS_NS;
 std::vector<ContactReport::Contact> ContactReport::contacts() const {
   std::vector<Contact> all;
   list.pairs.for_each([&](int k) {
-    if (list.acts(k, list.force(k)))
+    if (list.values.acts(k, list.values.force(k)))
       all.push_back(contact(k));
   });
   return all;
@@ -20,7 +20,7 @@ ContactReport::Contact ContactReport::contact(int k) const {
   const GrainRows &rows = list.rows;
   const int p = list.pairs.a(k), q = list.pairs.b(k);
   const double dx = rows[p].x - rows[q].x, dy = rows[p].y - rows[q].y, distance = std::sqrt(dx * dx + dy * dy);
-  const auto [fx, fy] = list.force(k);
+  const auto [fx, fy] = list.values.force(k);
 
   Contact c;
   c.grain_a = rows.grain(p);
@@ -39,7 +39,7 @@ ContactReport::Contact ContactReport::contact(int k) const {
   c.ft = fy * c.nx - fx * c.ny;
   c.overlap = constants.radius_sum - distance;
   c.sliding = !cdem::is_marked(list.pairs.es(k));
-  c.mine = list.counts(k);
+  c.mine = list.values.counts(k);
   c.remembered = list.pairs.remembered(k);
   return c;
 }
@@ -64,9 +64,9 @@ std::vector<ContactReport::DiscPlace> ContactReport::discs() const {
 cdem::LawTable::Energy ContactReport::energy() const {
   cdem::LawTable::Energy sum{0, 0, 0};
   list.pairs.for_each([&](int k) {
-    if (!list.counts(k))
+    if (!list.values.counts(k))
       return;
-    const auto [normal, tangential, added] = list.energy(k);
+    const auto [normal, tangential, added] = list.values.energy(k);
     sum.normal += normal;
     sum.tangential += tangential;
     sum.added += added;
@@ -79,10 +79,10 @@ ContactReport::OfPair ContactReport::of_pair(int i, int j) const {
   OfPair sum{0, 0, 0, 0, 0};
   auto add = [&](int k) {
     const int p = list.pairs.a(k), q = list.pairs.b(k), other = rows.grain(p) == i ? rows.grain(q) : rows.grain(p);
-    if (atom->tag[other] != atom->tag[j] || !list.acts(k, list.force(k)))
+    if (atom->tag[other] != atom->tag[j] || !list.values.acts(k, list.values.force(k)))
       return;
     const Contact c = contact(k);
-    const auto [normal, tangential, added] = list.energy(k);
+    const auto [normal, tangential, added] = list.values.energy(k);
     sum.energy += normal + tangential + added;
     sum.pull += c.fn / std::hypot(rows[p].x - rows[q].x, rows[p].y - rows[q].y);
     sum.fn += c.fn;

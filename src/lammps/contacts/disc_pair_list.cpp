@@ -7,7 +7,6 @@
 
 #include "atom.h"
 #include "domain.h"
-#include "error.h"
 #include "neighbor.h"
 #include "timer.h"
 #include "update.h"
@@ -18,7 +17,7 @@
 
 using namespace LAMMPS_NS;
 
-void DiscPairList::init(const cdem::LawTable &of_run, const ByTypes &by_types, const std::string &widest,
+void DiscPairList::init(const cdem::LawTable &of_run, const PairValues::ByTypes &by_types, const std::string &widest,
                         FixCDEMHistory *memory, bool forces_are_read) {
   audit = FixCDEMAudit::find(lmp);
   move_history_to_grains(); // what the contacts of the last run remember, by its law
@@ -30,6 +29,7 @@ void DiscPairList::init(const cdem::LawTable &of_run, const ByTypes &by_types, c
   history->list = this;
   remember_numbers();
   grains = FixCDEMGrains::find(lmp);
+  values.init(by_types, grains);
   rows.init(grains, cdem::kernels(law.rules, instructions));
   search.init(grains);
   speed = -1;
@@ -117,7 +117,7 @@ void DiscPairList::look_at_forces(int block, const LookAtForce &visit) {
     const cdem::PairForce f = slots.of_pair(pairs, k);
     if (kept)
       pairs.force[k] = f;
-    if (visit && acts(k, f))
+    if (visit && values.acts(k, f))
       visit(k, f);
   });
 }
@@ -271,7 +271,7 @@ void DiscPairList::set_constants() {
     const double of_steps = cdem::mass_of_steps(material, step.dt, 2 * step.forward / step.dt);
     for (int k = begin; k < end; k++) {
       const double rp = rows.radius(pairs.a(k)), rq = rows.radius(pairs.b(k));
-      pairs.set_constants(k, {rp + rq, 0.5 * (rp - rq), cdem::dashpot_scale(mass(k), of_steps)});
+      pairs.set_constants(k, {rp + rq, 0.5 * (rp - rq), cdem::dashpot_scale(values.mass(k), of_steps)});
       if (law.constants() > 0)
         set_law_constants(k);
     }
@@ -281,8 +281,7 @@ void DiscPairList::set_constants() {
 void DiscPairList::set_law_constants(int k) {
   const int p = pairs.a(k), q = pairs.b(k);
   std::array<double, cdem::MOST_NUMBERS> constants{};
-  law.set_constants((*coefficients)[atom->type[rows.grain(p)]][atom->type[rows.grain(q)]], {grain_of(p), grain_of(q)},
-                    constants.data());
+  law.set_constants(values.coefficients(k), {grain_of(p), grain_of(q)}, constants.data());
   pairs.set_law_constants(k, constants.data());
 }
 
@@ -298,12 +297,6 @@ void DiscPairList::renew_constants() {
   const bool running = update->whichflag != 0; // else atoms may have been added or removed since the list was built
   if (running && is_of_run)
     set_constants();
-}
-
-double DiscPairList::mass(int k) const {
-  const int i = rows.grain(pairs.a(k)), j = rows.grain(pairs.b(k));
-  const double mi = atom->rmass[i], mj = atom->rmass[j];
-  return !grains->is_free(j) ? mi : !grains->is_free(i) ? mj : mi * mj / (mi + mj);
 }
 
 // Of a pair whose periodic images are both in the list, in a box that is hardly longer than two grains, only the
@@ -325,41 +318,6 @@ void DiscPairList::recall_history(int k) {
     pairs.set_remembered(k, known);
     pairs.set_last_dashpots(k, known + 1 + law.memories());
   }
-}
-
-cdem::LawTable::Energy DiscPairList::energy(int k) const {
-  return law.energy(material(k), pairs.law_constants(k).data(), pairs.remembered(k).data(), overlap(k));
-}
-
-const cdem::Material &DiscPairList::material(int k) const {
-  return (*coefficients)[atom->type[rows.grain(pairs.a(k))]][atom->type[rows.grain(pairs.b(k))]].material;
-}
-
-cdem::Resistance DiscPairList::resistance(int k) const {
-  const cdem::Material &m = material(k);
-  const double scale = 2 * std::sqrt(mass(k));
-  cdem::Resistance r = law.added_resistance(pairs.law_constants(k).data());
-  r.normal.stiffness += m.kn, r.normal.dashpot += m.dn * scale;
-  r.tangent.stiffness += m.ks, r.tangent.dashpot += m.ds * scale;
-  return r;
-}
-
-double DiscPairList::overlap(int k) const {
-  const auto &a = rows[pairs.a(k)], &b = rows[pairs.b(k)];
-  const double dx = a.x - b.x, dy = a.y - b.y;
-  return pairs.constants(k).radius_sum - std::sqrt(dx * dx + dy * dy);
-}
-
-// A pair across a border is on two ranks (or twice on one, if periodic): the owner of disc a counts it.
-bool DiscPairList::counts(int k) const { return rows.grain(pairs.a(k)) < block_starts.back(); }
-
-bool DiscPairList::acts(int k, const cdem::PairForce &f) const { return overlap(k) > 0 || f.fx != 0 || f.fy != 0; }
-
-const cdem::PairForce &DiscPairList::force(int k) const {
-  if (pairs.force.empty())
-    error->one(FLERR, "Pair style cdem: forces of single contacts are not kept if no compute is there that may "
-                      "look at them as a run begins");
-  return pairs.force[k];
 }
 
 // Grains that arrive in this step have no rows yet, and may have taken the place of ghosts among the atoms. A fix that
@@ -401,7 +359,7 @@ void DiscPairList::book_losses() {
   if (!audit || !pairs.has_books())
     return;
   pairs.for_each([this](int k) {
-    if (counts(k)) {
+    if (values.counts(k)) {
       audit->books.friction += pairs.friction[k];
       audit->books.dashpots += pairs.dashpots[k];
     }

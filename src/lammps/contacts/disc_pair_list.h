@@ -6,6 +6,7 @@
 #include "contacts/fix_cdem_history.h"
 #include "contacts/line_feet.h"
 #include "contacts/pair_search.h"
+#include "contacts/pair_values.h"
 #include "core/disc_pairs.h"
 #include "core/force_kernel.h"
 #include "core/grid_place.h"
@@ -30,11 +31,10 @@ class Pair;
 class DiscPairList : protected Pointers, public ContactList {
 public:
   // `pair` sends rows to ghosts, see GrainRows.
-  DiscPairList(LAMMPS *lmp, Pair *pair) : Pointers(lmp), rows(lmp, pair), search(lmp, rows), feet(lmp, rows) {}
+  DiscPairList(LAMMPS *lmp, Pair *pair)
+      : Pointers(lmp), rows(lmp, pair), values(lmp, rows, pairs, law), search(lmp, rows), feet(lmp, rows) {}
 
-  // Coefficients by the types of two atoms, from 1 on; index 0 is not used.
-  using ByTypes = std::vector<std::vector<cdem::Coefficients>>;
-  void init(const cdem::LawTable &, const ByTypes &, const std::string &instructions, FixCDEMHistory *,
+  void init(const cdem::LawTable &, const PairValues::ByTypes &, const std::string &instructions, FixCDEMHistory *,
             bool keeps_forces);
 
   // To be called when LAMMPS has rebuilt its list and the rows are filled.
@@ -71,23 +71,11 @@ public:
   // The pairs of each disc, in the order of the sums; made when they are first asked for, and kept until the next list.
   const cdem::PairsOfDiscs &by_disc() const;
 
-  // --- of pair k, for code that looks at single contacts ---
-  double mass(int k) const; // reduced mass of the two grains, or that of the grain against a wall (kg)
-  double overlap(int k) const;
-  // Whether its discs overlap, or still exert this force: a part of it may act on after the contact opened within a
-  // step.
-  bool acts(int k, const cdem::PairForce &) const;
-  // On disc a in the last step of LAMMPS (N). An error if forces are not kept.
-  const cdem::PairForce &force(int k) const;
-  bool counts(int k) const; // whether this rank is the one that counts it
-  const cdem::Material &material(int k) const;
-  cdem::LawTable::Energy energy(int k) const;
-  cdem::Resistance resistance(int k) const;
-
   GrainRows rows;
   cdem::DiscPairs pairs;
   cdem::ForceSlots slots;
   cdem::LawTable law;
+  PairValues values;
 
   double bytes() const {
     return rows.bytes() + pairs.bytes() + slots.bytes() +
@@ -121,7 +109,7 @@ private:
   FixCDEMGrains *grains = nullptr;
   FixCDEMHistory *history = nullptr;
   const NeighList *neighbours = nullptr;
-  const ByTypes *coefficients = nullptr;
+  const PairValues::ByTypes *coefficients = nullptr;
   std::string instructions;
   bool keeps_forces = true; // of single pairs, for those who look at them
   bool booking = false;     // whether the list was built for an audit

@@ -2,7 +2,7 @@
 // The contact law, as pair_style and pair_coeff give it and restart files keep it.
 #pragma once
 
-#include "contacts/disc_pair_list.h"
+#include "contacts/pair_values.h"
 #include "core/law_table.h"
 
 #include "pointers.h"
@@ -30,7 +30,7 @@ public:
   void read(FILE *, int **is_set); // all ranks together; the first one reads the file
 
   std::string instructions;
-  DiscPairList::ByTypes coefficients; // by the types of two atoms
+  PairValues::ByTypes coefficients; // by the types of two atoms
 
 private:
   void read_addition(const std::string &name, int narg, char **arg, int &iarg, std::vector<double> &given);

@@ -286,7 +286,7 @@ void PairCDEM::tally(int k, const cdem::PairForce &f) {
   const auto from = place(contacts.pairs.a(k), i), to = place(contacts.pairs.b(k), j);
   double energy = 0;
   if (eflag_either) {
-    const auto [normal, tangential, added] = contacts.energy(k);
+    const auto [normal, tangential, added] = contacts.values.energy(k);
     energy = normal + tangential + added;
   }
   ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, energy, 0, f.fx, f.fy, 0, from.x - to.x, from.y - to.y, 0);

@@ -38,6 +38,7 @@ public:
   // Rows are in the order of the atoms; rows_of(n) is the number of rows of the first n. If all grains are single
   // discs, row i is that of atom i.
   int rows_of(int natoms) const { return clumps ? first_row[natoms] : natoms; }
+  int own_grains() const { return own; } // that have rows: atoms may have arrived since
   int grain(int row) const {
     const int r = row_or_piece(row);
     return clumps ? grain_of_row[r] : r;
@@ -108,9 +109,9 @@ private:
   Pair *const carrier;
   FixCDEMGrains *states = nullptr;
   cdem::Kernels kernels{};
-  int own = 0, all = 0; // grains that have rows, without and with ghosts; atoms may have arrived since
-  bool clumps = false;  // whether any type has more than one disc
-  bool lines = false;   // whether any type is a piece of a line
+  int own = 0, all = 0;                         // grains that have rows, without and with ghosts
+  bool clumps = false;                          // whether any type has more than one disc
+  bool lines = false;                           // whether any type is a piece of a line
   std::vector<const cdem::GrainShape *> shapes; // by type
   std::vector<int> first_row, grain_of_row;     // empty unless clumps
   int first_foot = 0;                           // rows from here on are feet

@@ -35,14 +35,14 @@ struct Packing {
     const cdem::Disc<double> &centre = rows.of_grain(i);
     for (int own = rows.rows_of(i); own < rows.rows_of(i + 1); own++)
       of_discs.for_each(own, [&](int k) {
-        if (contacts.overlap(k) <= 0)
+        if (contacts.values.overlap(k) <= 0)
           return;
         const int other = contacts.pairs.a(k) == own ? contacts.pairs.b(k) : contacts.pairs.a(k);
         const double dx = rows[own].x - rows[other].x, dy = rows[own].y - rows[other].y;
         const double distance = std::sqrt(dx * dx + dy * dy), nx = dx / distance, ny = dy / distance;
         const double lever = 0.5 * (distance + rows.radius(own) - rows.radius(other));
         visit(cdem::Touch{rows.grain(other), nx, ny, rows[own].x - lever * nx - centre.x,
-                          rows[own].y - lever * ny - centre.y, contacts.resistance(k)});
+                          rows[own].y - lever * ny - centre.y, contacts.values.resistance(k)});
       });
   }
 };
