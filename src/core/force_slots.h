@@ -140,8 +140,6 @@ public:
     }
   }
 
-  int pairs_of(int row) const { return counts[row]; }
-
   // The pairs of each disc, in the order in which its forces are summed.
   PairsOfDiscs by_disc(const DiscPairs &pairs) const {
     PairsOfDiscs of_discs(pairs, int(counts.size()));

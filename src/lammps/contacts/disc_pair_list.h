@@ -3,8 +3,8 @@
 // rank rebuilds its own list, without any communication, when discs that are not in it may have come within reach.
 #pragma once
 
-#include "contacts/fix_cdem_history.h"
 #include "contacts/line_feet.h"
+#include "contacts/list_history.h"
 #include "contacts/pair_search.h"
 #include "contacts/pair_values.h"
 #include "core/disc_pairs.h"
@@ -15,7 +15,6 @@
 
 #include "pointers.h"
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -23,16 +22,16 @@
 
 namespace LAMMPS_NS {
 
-class FixCDEMAudit;
 class FixCDEMGrains;
 class NeighList;
 class Pair;
 
-class DiscPairList : protected Pointers, public ContactList {
+class DiscPairList : protected Pointers {
 public:
   // `pair` sends rows to ghosts, see GrainRows.
   DiscPairList(LAMMPS *lmp, Pair *pair)
-      : Pointers(lmp), rows(lmp, pair), values(lmp, rows, pairs, law), search(lmp, rows), feet(lmp, rows) {}
+      : Pointers(lmp), rows(lmp, pair), values(lmp, rows, pairs, law), history(lmp, rows, pairs, feet, law, values),
+        search(lmp, rows), feet(lmp, rows) {}
 
   void init(const cdem::LawTable &, const PairValues::ByTypes &, const std::string &instructions, FixCDEMHistory *,
             bool keeps_forces);
@@ -62,12 +61,6 @@ public:
   double room() const;
   double largest_reach() const; // the largest distance between disc and grain centre, of own grains (m)
 
-  void copy_history_to_grains() override;
-  void move_history_to_grains() override;
-  void close_list() override;
-  void book_losses() override; // of the contacts that this rank counts, in fix cdem/audit
-  bool keeps_books() const { return booking; }
-
   // The pairs of each disc, in the order of the sums; made when they are first asked for, and kept until the next list.
   const cdem::PairsOfDiscs &by_disc() const;
 
@@ -76,11 +69,13 @@ public:
   cdem::ForceSlots slots;
   cdem::LawTable law;
   PairValues values;
+  ListHistory history;
 
   double bytes() const {
     return rows.bytes() + pairs.bytes() + slots.bytes() +
            double((neighbours_built_at.capacity() + discs_built_at.capacity()) * sizeof(cdem::GridPlace) +
-                  angle_built_at.capacity() * sizeof(double) + listed.capacity() * sizeof(tagint));
+                  angle_built_at.capacity() * sizeof(double)) +
+           history.bytes();
   }
 
 private:
@@ -90,29 +85,17 @@ private:
   void set_constants();
   void set_law_constants(int k);
   cdem::TwoGrains::Grain grain_of(int row) const;
-  bool is_nearest_image(int k) const;
-  void recall_history(int k);
-  void remember_numbers();
-  using Dashpots = std::array<double, 2 + cdem::MOST_NUMBERS>;
-  void take_back(const std::vector<Dashpots> &);
-  int most_pairs() const;
   void pair_forces(int block);
   void look_at_forces(int block, const LookAtForce &);
-  bool all_have_history() const;
-  void finish_step_in_books();
-
   double most_moved() const;
 
   PairSearch search;
   LineFeet feet;
-  FixCDEMAudit *audit = nullptr;
   FixCDEMGrains *grains = nullptr;
-  FixCDEMHistory *history = nullptr;
   const NeighList *neighbours = nullptr;
   const PairValues::ByTypes *coefficients = nullptr;
   std::string instructions;
   bool keeps_forces = true; // of single pairs, for those who look at them
-  bool booking = false;     // whether the list was built for an audit
 
   // Where grains were when a list was built: LAMMPS's list of grain pairs, or this list of disc pairs, which has a
   // smaller skin and must also be rebuilt when grains turn.
@@ -125,12 +108,10 @@ private:
   bigint built_in_step = 0; // when the list was built
   bool is_of_run = false;   // whether it was built in this run
 
-  std::vector<tagint> listed;    // ids of all grains, ghosts too, when the list of disc pairs was built
   std::vector<int> block_starts; // grains block_starts[k] ... block_starts[k+1]-1 are block k
   mutable std::optional<cdem::PairsOfDiscs> pairs_of_discs;
   cdem::Kernels kernels{};
   bool fetches_ahead = false; // see Ahead in core/disc_pairs.h
-  bool has_history = false;   // whether the list has the present histories, not the grains
 };
 
 } // namespace LAMMPS_NS

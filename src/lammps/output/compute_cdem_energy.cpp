@@ -117,10 +117,10 @@ double ComputeCDEMEnergy::work_of_gravity(double gx, double gy) const {
 void ComputeCDEMEnergy::open_books() {
   if (audit->open)
     return;
-  if (!pair->contacts.keeps_books())
+  if (!pair->contacts.pairs.has_books())
     error->all(FLERR, "Compute cdem/energy {}: the first run with an audit must not be 'pre no'", id);
   const State now = state();
-  pair->contacts.book_losses();
+  pair->contacts.history.book_losses();
   audit->books = {};
   const cdem::StepRule step = grains->step_rule();
   audit->opening = {now.kinetic + now.springs, step.gx, step.gy, work_of_gravity(step.gx, step.gy)};
@@ -137,7 +137,7 @@ void ComputeCDEMEnergy::take_gravity() {
   from.gx = step.gx, from.gy = step.gy;
 }
 
-void ComputeCDEMEnergy::book_losses() { pair->contacts.book_losses(); }
+void ComputeCDEMEnergy::book_losses() { pair->contacts.history.book_losses(); }
 
 void ComputeCDEMEnergy::keep_books() {
   open_books();
