@@ -21,7 +21,6 @@
 #include "utils.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 using namespace LAMMPS_NS;
