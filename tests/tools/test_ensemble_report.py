@@ -6,6 +6,7 @@ import json
 import os
 import shutil
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
@@ -318,6 +319,31 @@ def test_tables_of_an_earlier_report_do_not_stay(tmp_path):
         write_run(tmp_path / f"{request.speed:g}", request)
         report_on(tmp_path, each=False)
         assert sorted(path.name for path in tmp_path.glob("curves*")) == sorted([*written, "curves_7.csv"])
+
+
+@pytest.mark.usefixtures("undrawn")
+@pytest.mark.parametrize("name", ["grains", "contacts"])
+def test_pictures_do_not_decide_which_specimens_count(tmp_path: Path, name: str) -> None:
+    """Whether each run has a report of its own, whose pictures show a damage of a dump, or not."""
+    folders = [write_run(tmp_path / f"seed_{n}", replace(REQUEST, seed=n), factor) for n, factor in FACTORS.items()]
+    for sigma in REQUEST.stresses:
+        synthetic.write_frames(folders[2] / f"{sigma:g}", [0, 2000000, 4000000], 8)
+    dump = folders[2] / "100" / f"{name}.dump"
+    first, *rows = dump.read_text(encoding="utf-8").splitlines()
+    dump.write_text("\n".join([first, *rows[:-1], "nonsense"]) + "\n", encoding="utf-8")
+    phis = []
+    for each in (True, False):
+        with suppress(ShearboxError):
+            report_on(tmp_path, each=each)
+        summary = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
+        (ensemble,) = summary["ensembles"]
+        assert len(ensemble["specimens"]) == 3 and not summary["left_out"]
+        phis.append(ensemble["phi_deg"]["value"])
+    assert phis[0] == phis[1]
+    with pytest.raises(ShearboxError, match=f"seed_3/100/{name}.dump"):
+        report_on(tmp_path)
+    own = json.loads((folders[2] / "summary.json").read_text(encoding="utf-8"))
+    assert own["complete"] and f"{name}.dump" in own["problems"][0]
 
 
 def test_the_summary_says_what_is_left_out(folder):

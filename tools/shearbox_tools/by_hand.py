@@ -8,7 +8,7 @@ in no line of its own. So everything is taken from commands that act.
 import os
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -62,8 +62,8 @@ class Test:
     shear: Shear
     packing: dict[str, float] | None
     bed: dict[str, float] | None  # the table of consolidation
-    problems: list[str]
-    notes: list[str] = field(default_factory=list)
+    frame_problems: list[str]
+    notes: list[str]
 
 
 def read_by_hand(
@@ -120,8 +120,9 @@ def _results(tests: Sequence[Test], number: int) -> Results:
         packing=first.packing,
         consolidations={test.shear.sigma: test.bed for test in tests if test.bed},
         shears=[test.shear for test in tests],
-        problems=[problem for test in tests for problem in test.problems],
-        notes=notes,
+        problems=(),  # a test whose table is damaged is left out
+        frame_problems=tuple(problem for test in tests for problem in test.frame_problems),
+        notes=tuple(notes),
     )
 
 
@@ -149,11 +150,11 @@ def _read(folder: Path, model: str | None, speed: float | None) -> Test:
     rows = full_speed(data)
     if rows.stop - rows.start < FEWEST_ROWS:
         raise ShearboxError(f"{folder}: {rows.stop - rows.start} rows at full speed are too few to fit a curve")
-    problems: list[str] = []
-    frames = told_by_frames(folder, identity, problems)
+    frame_problems: list[str] = []
+    frames = told_by_frames(folder, identity, frame_problems)
     shear = analyse(sigma, folder, data, rows, _is_complete(data, travel), identity, bed or {}, *frames)
     notes = _sources(folder, said, packing)
-    return Test(folder, identity, described.path, shear, _row(packed / PACKED_TABLE), bed, problems, notes)
+    return Test(folder, identity, described.path, shear, _row(packed / PACKED_TABLE), bed, frame_problems, notes)
 
 
 def _model(folder: Path, said: Said, packing: Said, model: str | None) -> Model:

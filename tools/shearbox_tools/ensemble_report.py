@@ -4,6 +4,7 @@
 import json
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from .ensemble_curves import draw_ensembles
@@ -15,7 +16,7 @@ from .grouping import LeftOut, put_together
 from .mean_curve import as_csv
 from .page import render
 from .reading import read_all, read_quietly
-from .report import write_report
+from .report import write_files
 from .results import Results
 
 TEMPLATE = "ensemble.html.j2"
@@ -48,7 +49,9 @@ def report_on_runs(
     write_json(folder / SUMMARY, summary)
     page = folder / PAGE
     write_text(page, render(TEMPLATE, summary=summary, pictures=draw_ensembles(ensembles), name=folder.resolve().name))
-    problems = [one.reason for one in unread] + [problem for run in read for problem in run.problems]
+    problems = [one.reason for one in unread] + [
+        problem for run in read for problem in [*run.problems, *run.frame_problems]
+    ]
     if problems:
         raise ShearboxError(f"{page} is written, but not all files can be read:\n" + "\n".join(problems))
     return page
@@ -67,14 +70,12 @@ def _remove_others(folder: Path, tables: Sequence[str]) -> None:
 
 
 def _read_and_report(folder: Path) -> Results | str:
-    """A run, of which a report is written if there is anything to tell; or why it cannot be read."""
+    """A run, of which a report is written if there is anything to tell; or why it cannot be read. Whether it counts has nothing
+    to do with its pictures."""
     results = read_quietly(folder)
     if isinstance(results, str):
         return results
     try:
-        if results.shears:
-            write_report(results)
+        return replace(results, frame_problems=write_files(results)) if results.shears else results
     except ShearboxError as error:
-        if not results.problems:  # these are told with the ensemble
-            return str(error)
-    return results
+        return replace(results, frame_problems=(*results.frame_problems, str(error)))

@@ -82,7 +82,7 @@ class Ensemble:
         return INDEPENDENT if self.independent else SHARED
 
     @property
-    def notes(self) -> list[str]:
+    def notes(self) -> Sequence[str]:
         """What a reader must know, of several specimens with the names of their folders."""
         if self.count == 1:
             return self.specimens[0].notes

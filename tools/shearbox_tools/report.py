@@ -2,6 +2,8 @@
 """The command `shearbox report`: summary.json, a curve.csv per stress, and report.html."""
 
 import io
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -41,17 +43,27 @@ def write_report(results: Results) -> Path:
     folder = results.folder
     if not results.shears:
         raise ShearboxError(f"{folder}: nothing to report on yet\n" + "\n".join([*results.problems, *results.notes]))
-    specimens = _specimens(results)
-    film = _film(results, specimens)
-    summary = summarise(results)
+    page = folder / PAGE
+    problems = [*results.problems, *write_files(results)]
+    if problems:
+        raise ShearboxError(f"{page} is written, but not all files can be read:\n" + "\n".join(problems))
+    return page
+
+
+def write_files(results: Results) -> tuple[str, ...]:
+    """The files of the report of a folder in which there is something to tell; damages of dumps are returned."""
+    folder = results.folder
+    specimens, unseen = _specimens(results.shears)
+    film, note = _film(results, specimens)
+    # Each once: the search for lost grains may have met it before.
+    frame_problems = tuple(dict.fromkeys([*results.frame_problems, *unseen]))
+    told = replace(results, frame_problems=frame_problems, notes=(*results.notes, *note))
+    summary = summarise(told)
     for shear in results.shears:
         write_text(shear.folder / CURVE, _curve(shear))
     write_json(folder / SUMMARY, summary)
-    page = folder / PAGE
-    write_text(page, _page(results, summary, specimens, film))
-    if results.problems:
-        raise ShearboxError(f"{page} is written, but not all files can be read:\n" + "\n".join(results.problems))
-    return page
+    write_text(folder / PAGE, _page(told, summary, specimens, film))
+    return frame_problems
 
 
 def _diagrams(results: Results) -> dict[str, str]:
@@ -70,19 +82,19 @@ def _diagrams(results: Results) -> dict[str, str]:
         return {name: as_uri(figure) for name, figure in figures.items()}
 
 
-def _specimens(results: Results) -> dict[float, Stills]:
-    """By stress (kPa), where the dumps can be read."""
+def _specimens(shears: Sequence[Shear]) -> tuple[dict[float, Stills], list[str]]:
+    """By stress (kPa), where the dumps can be read; and what is damaged."""
     specimens = {}
-    for shear in results.shears:
+    problems = []
+    for shear in shears:
         if missing_frames(shear.folder):
             continue  # there is a note
         try:
             film = Film(shear.folder, shear.data["step"], shear.data["displacement_mm"])
             specimens[shear.sigma] = Stills.of(film, shear.peak.position)
         except ShearboxError as error:
-            if str(error) not in results.problems:  # the search for lost grains may have met it before
-                results.problems.append(str(error))
-    return specimens
+            problems.append(str(error))
+    return specimens, problems
 
 
 def _fields(results: Results, specimens: dict[float, Stills]) -> dict[float, dict[str, Fields]]:
@@ -98,20 +110,17 @@ def _fields(results: Results, specimens: dict[float, Stills]) -> dict[float, dic
     }
 
 
-def _film(results: Results, specimens: dict[float, Stills]) -> dict[str, Any]:
-    """For the player, where the frames can be read and the thickness is recorded; else a note says why there is none."""
+def _film(results: Results, specimens: dict[float, Stills]) -> tuple[dict[str, Any], list[str]]:
+    """For the player, where the frames can be read and the thickness is recorded; or a note, why there is none."""
     thickness = _thickness(results)
     shears = [shear for shear in results.shears if shear.sigma in specimens]
     if not shears or thickness is None:
-        return {}
+        return {}, []
     try:
         film = film_of(shears, thickness)
     except ShearboxError as error:
-        results.notes.append(f"no player: {error}")
-        return {}
-    if not film:
-        results.notes.append("no player: these are too many grains for a page; shearbox film shows them")
-    return film
+        return {}, [f"no player: {error}"]
+    return film, [] if film else ["no player: these are too many grains for a page; shearbox film shows them"]
 
 
 def _thickness(results: Results) -> float | None:

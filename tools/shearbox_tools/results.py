@@ -33,7 +33,7 @@ Value = TypeVar("Value")
 
 @dataclass(frozen=True)
 class Results:
-    """All that a folder holds; `problems` are damages, `notes` what else a reader must know."""
+    """All that a folder holds."""
 
     folder: Path
     identity: dict[str, Any]
@@ -42,12 +42,13 @@ class Results:
     packing: dict[str, float] | None
     consolidations: dict[float, dict[str, float]]
     shears: list[Shear]
-    problems: list[str]
-    notes: list[str]
+    problems: tuple[str, ...]  # damages of tables
+    frame_problems: tuple[str, ...]  # of dumps: no number of the strength needs them
+    notes: tuple[str, ...]  # what else a reader must know
 
     @property
     def complete(self) -> bool:
-        """Whether all that was asked for is there, to the end and undamaged."""
+        """Whether the tables of all that was asked for are there, to the end and undamaged."""
         return not self.problems and len(self.shears) == len(self.stresses) and all(s.complete for s in self.shears)
 
     @property
@@ -121,6 +122,7 @@ def read_results(folder: Path) -> Results:
     """Read and analyse; what is damaged becomes a problem, and the rest is read all the same."""
     record = read_record(folder)
     problems: list[str] = []
+    frame_problems: list[str] = []
     remarks: list[Remark] = []
     consolidations: dict[float, dict[str, float]] = {}
     shears = []
@@ -129,14 +131,15 @@ def read_results(folder: Path) -> Results:
         row = _optional(stress_folder(folder, sigma) / CONSOLIDATED_TABLE, problems)
         if row is not None:
             consolidations[sigma] = row
-        shear = _read_shear(folder, sigma, record["identity"], row or {}, problems, remarks)
+        shear = _read_shear(folder, sigma, record["identity"], row or {}, problems, frame_problems, remarks)
         if shear is not None:
             shears.append(shear)
             remarks += [(sigma, text) for text in shear.remarks]
     identity, stresses = record["identity"], record["stresses"]
     model_file = Path(record.get("model_file", ""))
-    notes = said_once(remarks) + narrow_box(identity)
-    return Results(folder, identity, model_file, stresses, packing, consolidations, shears, problems, notes)
+    notes = tuple(said_once(remarks) + narrow_box(identity))
+    told = tuple(problems), tuple(frame_problems), notes
+    return Results(folder, identity, model_file, stresses, packing, consolidations, shears, *told)
 
 
 def _read_shear(
@@ -145,6 +148,7 @@ def _read_shear(
     identity: dict[str, Any],
     bed: dict[str, float],
     problems: list[str],
+    frame_problems: list[str],
     remarks: list[Remark],
 ) -> Shear | None:
     place = stress_folder(folder, sigma)
@@ -168,7 +172,7 @@ def _read_shear(
         without = f"no {', '.join(missing)} and so no picture; without its {SHEAR_TABLE} it would be run again"
         remarks.append((sigma, without))
     complete = len(data["step"]) == rows_of_shear()
-    return analyse(sigma, place, data, rows, complete, identity, bed, *told_by_frames(place, identity, problems))
+    return analyse(sigma, place, data, rows, complete, identity, bed, *told_by_frames(place, identity, frame_problems))
 
 
 def told_by_frames(place: Path, identity: dict[str, Any], problems: list[str]) -> tuple[int | None, float | None]:

@@ -37,7 +37,7 @@ def summarise(results: Results) -> dict[str, Any]:
         "grains": identity["model ngrains"],
         "complete": results.complete,
         "notes": results.notes,
-        "problems": results.problems,
+        "problems": [*results.problems, *results.frame_problems],
         **_strength(results),
         "stresses": [_stress(results, shear) for shear in results.shears],
         "criteria": _criteria(results),
