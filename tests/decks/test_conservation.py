@@ -3,13 +3,12 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from engine import Disc, Frame, run
+from engine import Frame, run
 from scenes import cloud, kinetic_energy, lattice
 
 COLLIDE = """

@@ -2,7 +2,6 @@
 """The program lmp_cdem and the plugin themselves: what they register, and how they end when something is wrong."""
 
 import ctypes
-import os
 import re
 import struct
 import subprocess

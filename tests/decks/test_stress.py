@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from engine import Disc, run
+from engine import run
 from scenes import lattice, mini_box, shifted
 
 KN = 1e8

@@ -20,7 +20,6 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 sys.path.append(str(ROOT / "tests" / "decks"))
 
-import engine  # noqa: E402
 from engine import ENVIRONMENT, Disc, Frame, read_dump  # noqa: E402
 
 PROGRAM = shutil.which("liggghts")

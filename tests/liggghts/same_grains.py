@@ -7,9 +7,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import engine
 import host
 import numpy as np
-from host import HERE, ROOT, Frame, engine
+from host import HERE, ROOT, Frame
 
 INPUT = ROOT / "input"
 GROUPS = ("lower", "upper", "lid", "floor", "left", "right", "flanges", "grains", "walls")

@@ -7,9 +7,10 @@ import re
 from pathlib import Path
 from typing import Any
 
+import engine
 import numpy as np
 import pytest
-from host import HERE, Disc, Frame, engine
+from host import HERE, Disc, Frame
 from host import run as run_discs
 from host import start
 from same_grains import INPUT, consolidated, hand_over, run, sheared

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 import synthetic
-from test_page import pytestmark, told  # noqa: F401  (left out where there is no browser)
+from test_page import pytestmark as needs_browser
+from test_page import told
 
 from shearbox_tools import player
 from shearbox_tools.models import find_model
@@ -18,6 +19,8 @@ from shearbox_tools.report import report
 from shearbox_tools.request import Request
 from shearbox_tools.results import read_results
 from shearbox_tools.specimen import Film, Moment
+
+pytestmark = needs_browser
 
 STEPS = [0, 1000000, 2000000, 4000000]
 SIGMA = 100.0

@@ -8,7 +8,6 @@ from dataclasses import replace
 from pathlib import Path
 
 from .ensemble_curves import draw_ensembles
-from .ensemble_results import Ensemble
 from .ensemble_summary import summarise_all
 from .errors import ShearboxError
 from .files import PAGE, SUMMARY, write_json, write_text

@@ -32,13 +32,13 @@ def read_shear(path: Path) -> Columns:
     refuse_altered(path)
     names: list[str] = []
     rows: dict[int, list[float]] = {}
-    for number, line in enumerate(_whole_lines(path), start=1):
+    for where, line in enumerate(_whole_lines(path), start=1):
         if line.startswith("#"):
-            names = _header(line, names, path, number)
+            names = _header(line, names, path, where)
         elif line.strip():
             if not names:
-                raise ShearboxError(f"{path}, line {number}: a header '# step ...' is expected, not {short(line)}")
-            row = parse_numbers(line, len(names), path, number)
+                raise ShearboxError(f"{path}, line {where}: a header '# step ...' is expected, not {short(line)}")
+            row = parse_numbers(line, len(names), path, where)
             rows[int(row[names.index("step")])] = row
     if not rows:
         raise ShearboxError(f"{path}: there are no rows of data in it")
