@@ -9,7 +9,8 @@ import pytest
 import synthetic
 from test_run import MODEL, shearbox
 
-from shearbox_tools.cautions import cautions, narrow
+from shearbox_tools.box_width import narrow
+from shearbox_tools.cautions import cautions
 from shearbox_tools.grains import length_over_largest
 from shearbox_tools.models import all_models, find_model
 from shearbox_tools.request import Request

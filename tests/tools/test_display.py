@@ -7,7 +7,7 @@ import time
 import pytest
 from rich.console import Console
 
-from shearbox_tools import display
+from shearbox_tools import display, words
 
 
 def show(console: Console, monkeypatch: pytest.MonkeyPatch) -> str:
@@ -62,13 +62,13 @@ def test_bars_on_a_terminal(monkeypatch):
     ],
 )
 def test_durations(seconds, text):
-    assert display.duration(seconds) == text
-    assert display.about(seconds) == (text if text.startswith("under") else f"about {text}")
+    assert words.duration(seconds) == text
+    assert words.about(seconds) == (text if text.startswith("under") else f"about {text}")
 
 
 @pytest.mark.parametrize("size, text", [(0.2e6, "0 MB"), (46e6, "46 MB"), (999.6e6, "1.0 GB"), (4838e6, "4.8 GB")])
 def test_amounts(size, text):
-    assert display.amount(size) == text
+    assert words.amount(size) == text
 
 
 def test_time_left_of_the_whole_follows_from_the_work_done(monkeypatch):

@@ -19,7 +19,6 @@ import synthetic
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from shearbox_tools.campaign import read_timings
 from shearbox_tools.checks import check
 from shearbox_tools.dumps import CONTACTS, DISCS, GRAINS, Dump
 from shearbox_tools.errors import InputError, ShearboxError
@@ -29,6 +28,7 @@ from shearbox_tools.models import INPUT, PARAMETERS, read_model
 from shearbox_tools.parameters import parameters, read_settings
 from shearbox_tools.readers import last_value, read_row, read_shear
 from shearbox_tools.request import OWN_OPTION, Request, read_record, recorded
+from shearbox_tools.timings import read_timings
 
 EXAMPLES = int(os.environ.get("FUZZ_EXAMPLES", "25"))
 MODEL = INPUT / "models" / "TypeA_10x5_4-8_1-circle_350.in"

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 
-from shearbox_tools.campaign import read_timings
 from shearbox_tools.differences import mean_angle
 from shearbox_tools.ensemble import lines_of
 from shearbox_tools.ensemble_results import FEATURES, holds_in
@@ -17,6 +16,7 @@ from shearbox_tools.results import Results
 from shearbox_tools.shear import LARGEST_ERROR_PERCENT, Shear
 from shearbox_tools.specimens import find_runs
 from shearbox_tools.stress_dilatancy import ultimate_rows
+from shearbox_tools.timings import read_timings
 
 Numbers = dict[str, float]
 

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from .box_width import narrow_by_record
 from .errors import InputError, ShearboxError
 from .files import CONSOLIDATED_TABLE, PACKED_TABLE, SHEAR_TABLE, log_file
 from .grouping import LeftOut
@@ -23,7 +24,7 @@ from .numerals import numeral
 from .phases import CONSOLIDATE, PACK, SHEAR
 from .polynomial import FEWEST_ROWS
 from .readers import Columns, read_row, read_shear
-from .results import Results, narrow_box, told_by_frames
+from .results import Results, told_by_frames
 from .shear import Shear, analyse
 from .specimen import missing_frames
 
@@ -111,7 +112,7 @@ def _results(tests: Sequence[Test], number: int) -> Results:
     notes = [f"{test.folder.name}: {note}" for test in tests for note in [*test.notes, *test.shear.remarks]]
     if first.packing is None:
         notes.append(f"no {PACKED_TABLE} tells of which packing it is" + ": taken for one" * (len(tests) > 1))
-    notes += narrow_box(first.identity)
+    notes += narrow_by_record(first.identity)
     return Results(
         folder=Path(os.path.commonpath([test.folder for test in tests])),
         identity={"seed": f"{UNKNOWN} ({number + 1})"} | first.identity,

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Working through the phases of runs, several at a time, so that they can be stopped and taken up at any moment."""
 
-import json
 import signal
 import subprocess
 import time
@@ -11,19 +10,20 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from .display import Display, duration
+from .display import Display
 from .engine import LEAST_FREE_BYTES, Engine, Failure, explain_failure, free_bytes, stop
 from .errors import ShearboxError
-from .files import TIMINGS, sync, write_json
+from .files import sync
 from .phases import SHEAR, Phase, all_phases, left_to_do
 from .repair import make_ready, refuse_lost_frames
 from .restarts import step_of
 from .seals import Seal, look_at, seal
 from .specimens import Run
+from .timings import add_time
+from .words import duration
 
 POLL_SECONDS = 0.1
 SECONDS_TO_ASK_AGAIN = 10.0
-MOST_SECONDS = 1e9  # that a phase may have taken
 
 
 @dataclass
@@ -192,25 +192,9 @@ def _left_to_do(run: Run) -> list[Chain]:
     return [Chain(run, deque(pack), chains)] if pack else chains
 
 
-def read_timings(folder: Path) -> dict[str, float]:
-    """Seconds per phase, summed over all attempts; a damaged record costs the timings only."""
-    try:
-        timings = json.loads((folder / TIMINGS).read_text(encoding="utf-8"))
-        return {
-            label: float(s) for label, s in timings.items() if isinstance(s, (int, float)) and 0 <= s < MOST_SECONDS
-        }
-    except (OSError, ValueError, AttributeError, RecursionError):
-        return {}
-
-
 def _record_time(job: Job) -> float:
-    """Add the seconds of a phase to those of earlier attempts; its total is returned."""
-    folder = job.chain.run.folder
-    timings = read_timings(folder)
-    total = timings.get(job.phase.label, 0.0) + time.monotonic() - job.begun
-    with suppress(ShearboxError):  # a full disk has more important things to say
-        write_json(folder / TIMINGS, {**timings, job.phase.label: round(total, 2)})
-    return total
+    """Seconds that its phase took, with those of earlier attempts."""
+    return add_time(job.chain.run.folder, job.phase.label, time.monotonic() - job.begun)
 
 
 def _seal(phase: Phase) -> None:

@@ -3,31 +3,19 @@
 
 import math
 
+from .box_width import narrow
 from .forecast import stability_limit
-from .grains import length_over_largest
 from .numerals import number
 from .parameters import parameters
 from .request import Request
 
 LARGEST_COEFFICIENT = 1.5  # of friction that is taken for one: as an angle in degrees it would be next to nothing
-FEWEST_ACROSS = 10  # grains in the width of a box, by ASTM D3080
 
 
 def cautions(request: Request) -> list[str]:
     """A sentence for each."""
     model = request.model
     return [*_angles(request.settings), *_step(request), *narrow(model.width, model.dmax, model.shape)]
-
-
-def narrow(width: float, dmax: float, shape: str) -> list[str]:
-    """Whether the box has the width (m) that its largest grains need; dmax is the diameter of their largest disc."""
-    across = width / (dmax * length_over_largest(shape))
-    if across > FEWEST_ACROSS * (1 - 1e-9):
-        return []
-    return [
-        f"the box is {across:.3g} of its largest grains wide; standards for direct shear ask for {FEWEST_ACROSS} or more "
-        "(ASTM D3080)"
-    ]
 
 
 def _angles(settings: dict[str, str]) -> list[str]:

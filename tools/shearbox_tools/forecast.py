@@ -12,7 +12,6 @@ from dataclasses import replace
 from pathlib import Path
 
 from .disk import bytes_of_frames
-from .display import about, amount, duration
 from .hosts import HOSTS
 from .logs import read_logs
 from .models import PARAMETERS, read_variables
@@ -21,6 +20,7 @@ from .phases import CONSOLIDATE, PACK, SHEAR, Phase, frames_of, packing, shearin
 from .readers import last_value
 from .request import Request
 from .restarts import step_of
+from .words import about, amount, duration
 
 SECONDS = {PACK: 45e-9, CONSOLIDATE: 25e-9, SHEAR: 25e-9}  # a disc and step; loose grains need new lists all the time
 SECONDS_PER_DISC_AND_FRAME = 18e-6

@@ -9,7 +9,7 @@ from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from .display import duration
+from .words import duration
 
 TEMPLATES = Path(__file__).parent / "templates"
 

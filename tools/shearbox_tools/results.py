@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from .cautions import narrow
+from .box_width import narrow_by_record
 from .ensemble import Estimate, as_angle, mean_of
 from .errors import ShearboxError
 from .features import proportional
@@ -137,7 +137,7 @@ def read_results(folder: Path) -> Results:
             remarks += [(sigma, text) for text in shear.remarks]
     identity, stresses = record["identity"], record["stresses"]
     model_file = Path(record.get("model_file", ""))
-    notes = tuple(said_once(remarks) + narrow_box(identity))
+    notes = tuple(said_once(remarks) + narrow_by_record(identity))
     told = tuple(problems), tuple(frame_problems), notes
     return Results(folder, identity, model_file, stresses, packing, consolidations, shears, *told)
 
@@ -194,14 +194,6 @@ def _told(path: Path, read: Callable[[], Value], problems: list[str]) -> Value |
     except ShearboxError as error:
         problems.append(str(error))
         return None
-
-
-def narrow_box(identity: dict[str, Any]) -> list[str]:
-    """What cautions.py says of the width of the box; nothing where the record does not tell the grains."""
-    try:
-        return narrow(*(identity[f"model {name}"] for name in ("width", "dmax", "shape")))
-    except (LookupError, ValueError, TypeError, AttributeError, ArithmeticError):
-        return []
 
 
 def _optional(path: Path, problems: list[str]) -> dict[str, float] | None:

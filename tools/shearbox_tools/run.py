@@ -18,7 +18,7 @@ from .campaign import Campaign
 from .campaign_file import is_campaign
 from .cautions import cautions
 from .checks import check
-from .display import Display, Whole, amount, duration, make_display
+from .display import Display, Whole, make_display
 from .engine import Engine, free_bytes
 from .errors import InputError, ShearboxError
 from .files import RECORD
@@ -32,6 +32,7 @@ from .phases import DECKS, shearing
 from .presets import DENSITIES, PACKING_FRICTION
 from .request import OPTION_OF_SHEAR, OWN_OPTION, Request, check_folder, open_folder, placed, recorded
 from .specimens import Run, check_out, find_runs, planned, read_seeds
+from .words import amount, duration
 
 SPARE_BYTES = 100_000_000
 MOST_RUNS = 900  # each keeps a file open, its lock

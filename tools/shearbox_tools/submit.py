@@ -11,7 +11,6 @@ from typing import Any
 from rich.console import Console
 
 from .cluster import read_cluster
-from .display import about, amount, duration
 from .engine import Engine
 from .errors import ShearboxError
 from .files import write_text
@@ -23,6 +22,7 @@ from .phases import all_phases
 from .run import carry_out, cautions_of, check_disk, opened, prepare
 from .schedulers import Job, Scheduler, find_scheduler
 from .specimens import Run
+from .words import about, amount, duration
 
 PROGRAM = Path(__file__).resolve().parents[1] / "shearbox"
 

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from . import __version__
-from .campaign import read_timings
 from .files import PACKED, log_file
 from .logs import Log, read_logs
 from .peak import steepest
@@ -19,6 +18,7 @@ from .results import Results
 from .shear import Shear
 from .strength import COVERAGE, Line
 from .stress_dilatancy import Dilatant
+from .timings import read_timings
 from .verdict import Verdict, of_all
 
 DIGITS = 6
