@@ -9,6 +9,7 @@ import numpy as np
 
 from shearbox_tools.models import INPUT, read_variables
 from shearbox_tools.request import Request
+from shearbox_tools.specimen import Moment
 
 STEPS_PER_ROW = 5000
 GRAINS = 350
@@ -245,3 +246,10 @@ def _frame(step: int, columns: str, rows: list[str]) -> str:
         f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF {kind}\n{len(rows)}\nITEM: BOX BOUNDS ff ff pp\n"
         f"-1 1\n-1 1\n-0.5 0.5\nITEM: {columns}\n" + "".join(row + "\n" for row in rows)
     )
+
+
+def moment(ids: list[int], x: list[float]) -> Moment:
+    """Discs of radius 1 in a row; of grain 1, which is free, and of walls."""
+    discs = {"id": np.array(ids), "x": np.array(x), "y": np.zeros(len(x)), "radius": np.ones(len(x))}
+    grains = {"id": np.unique(ids), "wall": (np.unique(ids) != 1).astype(float)}
+    return Moment(0, grains, discs, {}, None)

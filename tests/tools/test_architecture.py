@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from test_layers import ROOMS
+from rooms import ROOMS
 
 ROOT = Path(__file__).resolve().parents[2]
 PICTURE = ROOT / "src" / "step.svg"

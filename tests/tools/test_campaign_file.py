@@ -5,8 +5,7 @@ import json
 from pathlib import Path
 
 import pytest
-from test_ensemble_run import events, finish, go_on, start
-from test_run import MODEL, wait_for
+from command import MODEL, events, finish, go_on, start, wait_for
 
 TWO = f"""
 [all]

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 import synthetic
-from test_run import MODEL, shearbox
+from command import MODEL, shearbox
 
 from shearbox_tools.box_width import narrow
 from shearbox_tools.cautions import cautions

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import synthetic
+from ensembles import REQUEST, only, specimens, write_run
 from scipy import stats
-from test_ensemble_report import REQUEST, only, write_run
 
 from shearbox_tools.cli import main
 from shearbox_tools.comparison import (
@@ -35,27 +35,6 @@ OUTSIDE = 0.05
 @pytest.fixture(name="base", scope="module")
 def _base(tmp_path_factory: pytest.TempPathFactory) -> Results:
     return read_results(write_run(tmp_path_factory.mktemp("base") / "run", REQUEST))
-
-
-def specimens(base: Results, seeds: list[int], shift: float = 0.0) -> list[Results]:
-    """Peaks c + s sigma with scatter of their own, and TRM at the end, by seed; the same packing for a seed."""
-    runs = []
-    for seed in seeds:
-        rng = np.random.default_rng(seed + int(1e6 * shift))
-        packed = np.random.default_rng(seed).normal(size=3)  # what specimens of a packing have in common
-        c, slope = 5 + packed[0], 0.6 + 0.05 * packed[1] + shift + 0.01 * rng.normal()
-        trm = 0.5 + 0.1 * packed[2] + shift + 0.02 * rng.normal()
-        shears = [
-            replace(
-                shear,
-                peak=replace(shear.peak, value=c + slope * shear.sigma + rng.normal()),
-                data=shear.data | {"trm": np.full(len(shear.data["trm"]), trm)},
-            )
-            for shear in base.shears
-        ]
-        packing = synthetic.bed() | {"kinetic_J": 1e-12 * seed}
-        runs.append(replace(base, identity=base.identity | {"seed": seed}, shears=shears, packing=packing))
-    return runs
 
 
 def found(comparison: Comparison, name: str, sigma: float | None = None) -> Quantity:

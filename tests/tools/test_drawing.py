@@ -1,18 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Pictures of specimens."""
 
-import numpy as np
 import pytest
+from synthetic import moment
 
 from shearbox_tools.drawing import _between
-from shearbox_tools.specimen import Moment
-
-
-def moment(ids: list[int], x: list[float]) -> Moment:
-    """Discs of radius 1 in a row; of grain 1, which is free, and of walls."""
-    discs = {"id": np.array(ids), "x": np.array(x), "y": np.zeros(len(x)), "radius": np.ones(len(x))}
-    grains = {"id": np.unique(ids), "wall": (np.unique(ids) != 1).astype(float)}
-    return Moment(0, grains, discs, {}, None)
 
 
 def test_what_lies_between_the_ends_of_a_smooth_wall() -> None:

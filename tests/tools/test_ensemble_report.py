@@ -15,48 +15,20 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import synthetic
+from ensembles import FACTORS, REQUEST, base, only, write_run
 from shearbox_tools.ensemble_results import INDEPENDENT, SHARED, Ensemble
 from shearbox_tools.ensemble_summary import summarise_all
 from shearbox_tools.errors import ShearboxError
 from shearbox_tools.grouping import put_together, what_differs, what_is_set
 from shearbox_tools.mean_curve import average
-from shearbox_tools.models import PARAMETERS, find_model, read_variables
+from shearbox_tools.models import PARAMETERS, read_variables
 from shearbox_tools.quasistatic import Inertia
 from shearbox_tools.reporting import report_on
-from shearbox_tools.request import OWN_OPTION, Request
+from shearbox_tools.request import OWN_OPTION
 from shearbox_tools.results import Results, read_results
 from shearbox_tools.shear import Shear
 from shearbox_tools.specimens import find_runs
 from shearbox_tools.stress_dilatancy import Dilatant
-
-REQUEST = Request(find_model("TypeA_10x5_4-8_1-circle_350"), (100.0, 200.0, 300.0))
-ROWS, TRAVEL = 800, 8.0
-FACTORS = {1: 0.9, 2: 1.0, 3: 1.2}  # of tau, by seed
-
-
-def write_run(folder: Path, request: Request, factor: float = 1.0, rows: int = ROWS, lid: float = 1.0) -> Path:
-    """Smooth curves: tau is `factor` times that of `base`, the lid rises `lid` times as much as there."""
-    synthetic.write_record(folder, request)
-    for sigma in request.stresses:
-        place = folder / f"{sigma:g}"
-        place.mkdir()
-        columns = base(sigma)
-        columns["tau_kPa"] = factor * columns["tau_kPa"]
-        columns["lid_mm"] = lid * columns["lid_mm"]
-        synthetic.write_shear(place / "shear.dat", columns, slice(0, rows))
-    return folder
-
-
-def base(sigma: float) -> dict[str, np.ndarray]:
-    """Peak 0.5 sigma + 5 kPa at 2.5 mm, without noise; the lid follows the stress, and rises steepest just before."""
-    columns = synthetic.curves(sigma, TRAVEL, ROWS)
-    s = columns["displacement_mm"]
-    tau = synthetic.softening(s, 0.5 * sigma + 5, 2.5, 0.3 * sigma)
-    return columns | {
-        "tau_kPa": tau,
-        "tau_upper_kPa": tau,
-        "lid_mm": 0.5 / (1 + np.exp(-(s - 2) / 0.5)) - 0.5 / (1 + np.exp(4)),
-    }
 
 
 @pytest.fixture(name="runs", scope="module")
@@ -159,10 +131,6 @@ def test_strength_by_the_shear_plane(runs):
     assert first.plane_line and doubtful.line and doubtful.plane_line is None, "a peak that cannot be judged"
     ensemble = Ensemble([doubtful, *others])
     assert ensemble.strength and ensemble.plane_strength is None
-
-
-def only(run: Results, *stresses: float) -> Results:
-    return replace(run, stresses=list(stresses), shears=[s for s in run.shears if s.sigma in stresses])
 
 
 def test_a_packing_for_each_stress_is_another_model(runs):

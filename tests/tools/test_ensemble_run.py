@@ -3,59 +3,24 @@
 
 import fcntl
 import json
-import os
 import re
 import signal
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
-from test_run import MODEL, SHEARBOX, TESTS, wait_for
+from command import MODEL, events, finish, go_on, start, wait_for
 
 TWO = ("--seeds", "2", "--stress", "100", "200")
-# the report takes longer than all else here, and has tests of its own
-WITHOUT_REPORT = f"""
-import sys, types
-sys.path.insert(0, {str(SHEARBOX.parent)!r})
-sys.modules["shearbox_tools.reporting"] = types.SimpleNamespace(report_on=lambda folder, each: folder / "report.html")
-from shearbox_tools.cli import main
-sys.exit(main())
-"""
-
-
-def start(*words: str, **environment: str) -> subprocess.Popen[str]:
-    return subprocess.Popen(
-        [sys.executable, "-c", WITHOUT_REPORT, "run", *words, "--engine", str(TESTS / "fake_engine.py")],
-        env={**os.environ, **environment},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-
-
-def finish(run: subprocess.Popen[str]) -> subprocess.CompletedProcess[str]:
-    told, complaints = run.communicate(timeout=120)
-    return subprocess.CompletedProcess(run.args, run.returncode, told, complaints)
 
 
 def shearbox(folder: Path, *options: str, **environment: str) -> subprocess.CompletedProcess[str]:
     return finish(start(MODEL, "--out", str(folder), *options, **environment))
 
 
-def go_on(folder: Path, *options: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    """As it was asked for."""
-    return finish(start(str(folder), *options, **environment))
-
-
 @pytest.fixture(name="folder")
 def _folder(tmp_path: Path) -> Path:
     return tmp_path / "results"
-
-
-def events(diary: Path) -> list[list[str]]:
-    """Event, phase, folder, and restart file of every engine."""
-    return [line.split() for line in diary.read_text(encoding="utf-8").splitlines()]
 
 
 def identity(folder: Path) -> dict:

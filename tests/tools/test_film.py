@@ -12,7 +12,7 @@ import pytest
 import synthetic
 from matplotlib.colors import to_rgb
 from PIL import Image
-from test_drawing import moment
+from synthetic import moment
 
 from shearbox_tools import scene
 from shearbox_tools.cli import main

@@ -8,7 +8,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from test_page import MISSING, told
+from browser import needs_browser, told
 
 from shearbox_tools.parameters import parameters
 
@@ -75,7 +75,7 @@ def measured(folder: Path, pages: list[Path], width: int, what: str) -> list[int
     return found
 
 
-@pytest.mark.skipif(bool(MISSING), reason="no chromium: tools/setup --ci installs it")
+@needs_browser
 def test_on_a_phone(manual: Path, tmp_path: Path) -> None:
     """No page is wider than the screen; what is wide scrolls by itself."""
     pages = sorted(path for path in manual.rglob("*.html") if "_static" not in path.parts)
@@ -84,7 +84,7 @@ def test_on_a_phone(manual: Path, tmp_path: Path) -> None:
     assert len(widths) > 25 and {name: width for name, width in widths.items() if width > 390} == {}
 
 
-@pytest.mark.skipif(bool(MISSING), reason="no chromium: tools/setup --ci installs it")
+@needs_browser
 def test_the_code_of_styles_on_a_desk(manual: Path, tmp_path: Path) -> None:
     """The comments of headers are seen whole at 1280 px."""
     pages = sorted((manual / "generated").glob("*cdem*.html"))

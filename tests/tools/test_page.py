@@ -2,21 +2,17 @@
 """The report in a browser: on a phone, a tablet, a desk, and on paper, nothing is cut off and nothing overlaps."""
 
 import html
-import json
-import os
 import re
-import shutil
 import subprocess
 from collections import Counter
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
-from typing import Any
 
 import pytest
 import synthetic
-from test_compare import specimens
-from test_ensemble_report import REQUEST, write_run
+from browser import chromium, needs_browser, told
+from ensembles import REQUEST, specimens, write_run
 
 from shearbox_tools.comparing import Member, write_comparison
 from shearbox_tools.ensemble_results import Ensemble
@@ -27,6 +23,8 @@ from shearbox_tools.reporting import report_on
 from shearbox_tools.request import Request
 from shearbox_tools.results import read_results
 
+pytestmark = needs_browser
+
 LAYOUT = Path(__file__).with_name("layout.js")
 STRESSES = (100.0, 200.0, 300.0, 400.0)
 WIDTHS = (390, 900, 1400)  # px
@@ -35,11 +33,6 @@ TITLE_HEIGHT = 18.6  # of a box of letters of 16 points
 
 SHEET = re.compile(r'<page width="(.*?)" height="(.*?)">')
 WORD = re.compile(r'<word .*? yMin="(.*?)" .*? yMax="(.*?)">(.*?)</word>')
-
-MISSING = [program for program in ("chromium", "pdftotext", "pdfimages") if not shutil.which(program)]
-pytestmark = pytest.mark.skipif(
-    bool(MISSING), reason=f"no {', '.join(MISSING)}: tools/setup --ci installs chromium and poppler-utils"
-)
 
 
 @pytest.fixture(name="page", scope="module")
@@ -78,24 +71,6 @@ def _comparison(tmp_path_factory: pytest.TempPathFactory) -> Path:
     every = [specimens(base, [1, 2, 3]), specimens(base, [1, 2, 3], 0.1), specimens(base, [4], 0.2)]
     members = [Member(folder / name, Ensemble(runs)) for name, runs in zip(("dense", "fast", "loose"), every)]
     return write_comparison(members, [LeftOut(folder / "stopped", "sheared to 4.00 mm only")], folder)[0]
-
-
-def chromium(folder: Path, *arguments: str) -> str:
-    """What it prints; without a sandbox, as root has to run it, and without a bus that it would wait for."""
-    buses = {f"DBUS_{name}_BUS_ADDRESS": "unix:path=/dev/null" for name in ("SESSION", "SYSTEM")}
-    command = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={folder / 'profile'}"]
-    done = subprocess.run(
-        [*command, *arguments], env=os.environ | buses, check=True, capture_output=True, text=True, timeout=60
-    )
-    return done.stdout
-
-
-def told(folder: Path, page: Path, *arguments: str) -> Any:
-    """What a page has put into its body, as JSON."""
-    shown = chromium(folder, *arguments, "--dump-dom", page.as_uri())
-    body = re.search(r"<body>(.*)</body>", shown, re.DOTALL)
-    assert body, shown[:1000]
-    return json.loads(html.unescape(body[1]))
 
 
 def faults(pages: list[tuple[str, int]], folder: Path) -> list[list[str]]:

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 import synthetic
 from matplotlib.figure import Figure
-from test_run import TESTS
+from command import TESTS
 
 from paper_tools import findings
 from paper_tools.effects import CONFIRMED, CONTRADICTED, OPEN

@@ -5,8 +5,8 @@ import json
 import subprocess
 
 import pytest
+from command import MODEL, SHEARBOX, UNDRAWN, command, shearbox
 from rich.console import Console
-from test_run import MODEL, SHEARBOX, UNDRAWN, command, shearbox
 
 from shearbox_tools.checks import check
 from shearbox_tools.errors import InputError, ShearboxError

@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 import synthetic
-from test_page import pytestmark as needs_browser
-from test_page import told
+from browser import needs_browser, told
 
 from shearbox_tools import player
 from shearbox_tools.models import find_model

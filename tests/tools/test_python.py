@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 import synthetic
-from test_run import MODEL, TESTS
+from command import MODEL, TESTS
 
 pandas = pytest.importorskip("pandas", reason="no pandas: tools/setup --ci installs python3-pandas")
 import shearbox  # noqa: E402

@@ -10,11 +10,11 @@ import shutil
 import signal
 import subprocess
 import threading
-import time
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import pytest
+from command import MODEL, SHEARBOX, TESTS, command, shearbox, wait_for
 from rich.console import Console
 from shearbox_tools import cli, reading
 from shearbox_tools.campaign import Campaign
@@ -28,27 +28,6 @@ from shearbox_tools.presets import DENSITIES, SPEEDS
 from shearbox_tools.request import Request
 from shearbox_tools.restarts import step_of
 from shearbox_tools.specimens import Run
-
-TESTS = Path(__file__).resolve().parent
-SHEARBOX = TESTS.parents[1] / "tools" / "shearbox"
-UNDRAWN = TESTS / "undrawn.py"
-MODEL = "TypeA_10x5_4-8_1-circle_350"
-
-
-def command(folder: Path, *options: str, model: str = MODEL, program: Path = UNDRAWN) -> list[str]:
-    return [str(program), "run", model, "--out", str(folder), "--engine", str(TESTS / "fake_engine.py"), *options]
-
-
-def shearbox(
-    folder: Path, *options: str, model: str = MODEL, program: Path = UNDRAWN, **environment: str
-) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        command(folder, *options, model=model, program=program),
-        env={**os.environ, **environment},
-        capture_output=True,
-        text=True,
-        timeout=120,
-    )
 
 
 def summary(folder: Path) -> dict:
@@ -241,13 +220,6 @@ def test_a_log_shows_where_a_deck_begins_to_listen(folder, deck):
             break
         assert not phase.listens
     assert phase.listens
-
-
-def wait_for(condition, seconds: float = 30) -> None:
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "waited in vain"
-        time.sleep(0.05)
 
 
 def test_a_failed_stress_does_not_cost_the_others(folder):
@@ -604,8 +576,8 @@ def test_help_of_every_command():
 
 def test_help_is_as_it_is_meant() -> None:
     """A percent sign is written twice in the help of an option, and once in a description."""
-    for command in subcommands().values():
-        assert "%%" not in command.format_help()
+    for parser in subcommands().values():
+        assert "%%" not in parser.format_help()
 
 
 def subcommands() -> dict[str, argparse.ArgumentParser]:
