@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import statistics
+import sys
 from collections.abc import Callable, Iterable
+from functools import partial
 from pathlib import Path
 
 import matplotlib
@@ -14,6 +16,10 @@ import matplotlib.pyplot as plt
 from engines import CDEM, LIGGGHTS, PHASES, STOCK, Sample
 from cases import BY_RANKS, BY_SIZE, BY_WIDTH, SCENES
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import tables  # noqa: E402
+
+table = partial(tables.table, spaced=True)
 Samples = dict[str, list[Sample]]  # of a scene, by engine; the n-th of each were measured in turn
 PEERS = (STOCK, LIGGGHTS)
 COLOURS = {CDEM: "tab:blue", STOCK: "tab:orange", LIGGGHTS: "tab:green"}
@@ -27,13 +33,6 @@ def median_ns(samples: Iterable[Sample]) -> float:
 def ratios(scene: Samples, peer: str) -> list[float]:
     """How many times as long a peer took, round by round."""
     return [theirs.ns / ours.ns for ours, theirs in zip(scene[CDEM], scene[peer], strict=True)]
-
-
-def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    """A table in Markdown."""
-    lines = [list(head)]
-    lines += [["---"] * len(lines[0]), *(list(row) for row in rows)]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
 def text(machine: dict[str, str], scenes: dict[str, Samples]) -> str:

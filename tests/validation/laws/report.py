@@ -14,7 +14,8 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-sys.path.insert(0, str(ROOT / "tools"))
+sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests")]
+import tables  # noqa: E402
 from shearbox_tools.style import OTHER_LOOKS, RC  # noqa: E402
 
 COLOURS = {"direct": "#111111", "incremental": OTHER_LOOKS[0].colour}
@@ -38,9 +39,7 @@ def publish(values: dict[str, Values], out: Path) -> str:
 
 
 def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    lines = [list(head), *(list(row) for row in rows)]
-    lines.insert(1, ["---"] * len(lines[0]))
-    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+    return tables.table(head, rows, spaced=True) + "\n"
 
 
 def side_by_side(found: Found) -> list[tuple[Job, dict[str, Values]]]:

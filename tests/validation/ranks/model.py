@@ -13,6 +13,7 @@ overlapped, and no rank waits for another one that has more to do. The efficienc
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,6 +24,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from scipy.optimize import brentq  # noqa: E402
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+from tables import table  # noqa: E402
 
 DISC = 16e-9  # s
 LATENCY, BANDWIDTH = 1.5e-6, 10e9  # s, bytes/s: of an InfiniBand network, between nodes
@@ -81,23 +85,23 @@ def cost(counted: dict[str, Any]) -> Cost:
 def publish(counted: dict[str, Any], out: Path) -> str:
     """Writes tables.md and ranks.svg; the tables."""
     of = cost(counted)
-    text = (
-        f"{counted['model']}: what the rank that sends most sends in a step of the shear test.\n\n"
-        "| ranks | discs a rank | messages | bytes | reductions | bytes in them |\n|---|---|---|---|---|---|\n"
-    )
+    text = f"{counted['model']}: what the rank that sends most sends in a step of the shear test.\n\n"
+    rows = []
     for ranks, counts in counted["ranks"].items():
-        numbers = " | ".join(f"{counts[name]:.4g}" for name in ("messages", "bytes", "reductions", "bytes_reduced"))
-        text += f"| {ranks} | {counted['discs'] / int(ranks):.0f} | {numbers} |\n"
+        numbers = [f"{counts[name]:.4g}" for name in ("messages", "bytes", "reductions", "bytes_reduced")]
+        rows.append([ranks, f"{counted['discs'] / int(ranks):.0f}", *numbers])
+    text += table(["ranks", "discs a rank", "messages", "bytes", "reductions", "bytes in them"], rows)
     text += (
-        f"\nModel: {1e9 * DISC:g} ns a disc, {of.messages:.3g} messages, {of.of_border:.0f} √n + {of.fixed:.0f} bytes, "
+        f"\n\nModel: {1e9 * DISC:g} ns a disc, {of.messages:.3g} messages, {of.of_border:.0f} √n + {of.fixed:.0f} bytes, "
         f"{of.reductions:.3g} reductions; network: {1e6 * LATENCY:g} µs, {BANDWIDTH / 1e9:g} GB/s. Efficiency of the ranks:\n\n"
-        f"| grains | {' | '.join(f'{ranks} ranks' for ranks in RANKS)} | twice the ranks pay up to |\n|{'---|' * (2 + len(RANKS))}\n"
     )
+    rows = []
     for grains in GRAINS:
-        shares = " | ".join(f"{of.efficiency(grains / ranks, ranks):.2f}" for ranks in RANKS)
-        text += f"| {grains} | {shares} | {of.most_ranks(grains)} |\n"
+        shares = [f"{of.efficiency(grains / ranks, ranks):.2f}" for ranks in RANKS]
+        rows.append([f"{grains}", *shares, f"{of.most_ranks(grains)}"])
     needed = [f"{of.discs_for(share, ranks):.0f}" for share in (0.5, 0.9) for ranks in RANKS]
-    text += f"| discs a rank for 0.5 | {' | '.join(needed[: len(RANKS)])} | |\n| for 0.9 | {' | '.join(needed[len(RANKS) :])} | |\n"
+    rows += [["discs a rank for 0.5", *needed[: len(RANKS)], ""], ["for 0.9", *needed[len(RANKS) :], ""]]
+    text += table(["grains", *(f"{ranks} ranks" for ranks in RANKS), "twice the ranks pay up to"], rows) + "\n"
     (out / "tables.md").write_text(text)
     draw(of, out / "ranks.svg")
     return text

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections import defaultdict
 from pathlib import Path
 
@@ -12,6 +13,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from cases import SIGMA, SPEED, STUDIED  # noqa: E402
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+import tables  # noqa: E402
 
 Values = dict[str, dict[str, float]]
 COLUMNS = {"sides_at_rest": "sides, rest", "sides_at_peak": "sides, peak", "sides_mean": "sides, mean",
@@ -48,30 +52,30 @@ def publish(values: Values, out: Path) -> Path:
 
 
 def table(title: str, rows: list[tuple[str, str, list[dict[str, float]]]]) -> str:
-    lines = [f"| model | {title} | n | " + " | ".join(COLUMNS.values()) + " |", "|---" * (3 + len(COLUMNS)) + "|"]
+    lines = []
     for model, walls, found in rows:
         cells = []
         for name in COLUMNS:
             of_seeds = np.array([row[name] for row in found])
             spread = f" ± {np.ptp(of_seeds) / 2:.2f}" if len(found) > 1 else ""
             cells.append(f"{np.mean(of_seeds):.2f}{spread}")
-        lines.append(f"| {model} | {walls.replace('_', ' ')} | {len(found)} | " + " | ".join(cells) + " |")
-    return "\n".join(lines) + "\n"
+        lines.append([model, walls.replace("_", " "), f"{len(found)}", *cells])
+    return tables.table(["model", title, "n", *COLUMNS.values()], lines) + "\n"
 
 
 def ranges(values: Values) -> str:
     """Least, greatest and mean of the loads, over those specimens."""
-    lines = ["| | discs | smooth |", "|---|---|---|"]
+    lines = []
     for name in ("sides_at_rest", "sides_at_peak", "sides_mean", "flanges_mean"):
         found = [[row[name] for key, row in values.items() if f"/{sides}_1_1/" in key] for sides in ("discs", "smooth")]
-        cells = " | ".join(f"{min(v):.3f} to {max(v):.3f}, mean {np.mean(v):.3f} of {len(v)}" for v in found)
-        lines.append(f"| {COLUMNS[name]} | {cells} |")
-    return "\n".join(lines) + "\n"
+        cells = [f"{min(v):.3f} to {max(v):.3f}, mean {np.mean(v):.3f} of {len(v)}" for v in found]
+        lines.append([COLUMNS[name], *cells])
+    return tables.table(["", "discs", "smooth"], lines) + "\n"
 
 
 def differences(values: Values) -> str:
     """Mean over pairs, with its standard error, and the mean over the models with smooth sides."""
-    lines = ["| | single discs | grains of three |", "|---|---|---|"]
+    lines = []
     for name in ("peak_lid", "peak_plane", "dilatancy", "trm"):
         cells = []
         for shape in ("_1-circle", "_3-circle"):
@@ -85,8 +89,8 @@ def differences(values: Values) -> str:
             error = np.std(pairs, ddof=1) / len(pairs) ** 0.5
             usual = np.mean([np.mean(of_model) for of_model in smooth.values()])
             cells.append(f"{np.mean(pairs):.3f} ± {error:.3f} ({len(pairs)}), of {usual:.2f}")
-        lines.append(f"| {COLUMNS[name]} | {' | '.join(cells)} |")
-    return "\n".join(lines) + "\n"
+        lines.append([COLUMNS[name], *cells])
+    return tables.table(["", "single discs", "grains of three"], lines) + "\n"
 
 
 def draw(groups: dict[tuple[str, str], list[dict[str, float]]], file: Path) -> None:
