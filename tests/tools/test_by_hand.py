@@ -43,7 +43,7 @@ def write_test(folder: Path, sigma: float, log: str | None = "shear.log", packin
 
 
 @pytest.mark.parametrize("log", ["shear.log", "log.lammps", "log.liggghts"])
-def test_a_command_counts_once_all_its_values_are_there(tmp_path, log):
+def test_a_command_counts_once_all_its_values_are_there(tmp_path: Path, log: str) -> None:
     (run,), left_out = read_by_hand([write_test(tmp_path / "a", 150, log)], None, None)
     assert not left_out and run.complete
     identity = run.identity
@@ -54,7 +54,7 @@ def test_a_command_counts_once_all_its_values_are_there(tmp_path, log):
     assert log in run.notes[0]
 
 
-def test_stresses_of_a_packing_are_one_specimen(tmp_path):
+def test_stresses_of_a_packing_are_one_specimen(tmp_path: Path) -> None:
     """Packings are told apart by their tables; where there is none they are taken for one, which is said."""
     folders = [write_test(tmp_path / name, s, packing=p) for name, s, p in
                (("a", 100, 1), ("b", 200, 1), ("c", 100, 2), ("d", 300, None), ("e", 400, None))]  # fmt: skip
@@ -65,7 +65,7 @@ def test_stresses_of_a_packing_are_one_specimen(tmp_path):
     assert runs[0].folder == tmp_path
 
 
-def test_a_box_that_is_narrow_for_its_grains_is_told(tmp_path):
+def test_a_box_that_is_narrow_for_its_grains_is_told(tmp_path: Path) -> None:
     """As in the report of a run: the lid of the log is 5 cm wide, 6.25 grains of 8 mm."""
     log = write_test(tmp_path / "a", 100) / "shear.log"
     assert not any("grains wide" in note for note in read_by_hand([tmp_path / "a"], None, None)[0][0].notes)
@@ -74,7 +74,7 @@ def test_a_box_that_is_narrow_for_its_grains_is_told(tmp_path):
     assert any("the box is 6.25 of its largest grains wide" in note for note in run.notes)
 
 
-def test_tests_of_other_contacts_are_no_specimen_together(tmp_path):
+def test_tests_of_other_contacts_are_no_specimen_together(tmp_path: Path) -> None:
     """Rolling resistance, cohesion, walls, inertia and the friction of packing are told by commands of the logs; where they differ
     tests of a packing are no stresses of one specimen, and packings no ensemble."""
     ends = ["", "  cohesion 5", " rolling 0.1 0.215 "]
@@ -107,10 +107,17 @@ write_restart packed.restart
 """
 
 
-def test_boxes_with_other_walls_are_no_ensemble(tmp_path):
+def test_boxes_with_other_walls_are_no_ensemble(tmp_path: Path) -> None:
     """Sides of 0.048 m in discs of 4 mm: 13 touch, 25 lie at half their diameter. A column of 0.18 m is 1.8 boxes high."""
-    usual = {"kind": 3, "count": 13, "disc": 0.004, "column": 0.18, "seed": 1}
-    others = [{}, {"seed": 2}, {"kind": 2}, {"kind": 2, "count": 25}, {"disc": 0.002}, {"column": 0.2}]
+    usual: dict[str, float] = {"kind": 3, "count": 13, "disc": 0.004, "column": 0.18, "seed": 1}
+    others: list[dict[str, float]] = [
+        {},
+        {"seed": 2},
+        {"kind": 2},
+        {"kind": 2, "count": 25},
+        {"disc": 0.002},
+        {"column": 0.2},
+    ]
     for number, other in enumerate(others):
         place = write_test(tmp_path / str(number), 100, packing=number)
         (place / "pack.log").write_text(PACK.format(**usual | other), encoding="utf-8")
@@ -127,7 +134,7 @@ def test_boxes_with_other_walls_are_no_ensemble(tmp_path):
     assert [any(unknown in note for note in run.notes) for run in runs] == [False] * 6 + [True]
 
 
-def test_stress_and_travel_are_as_told_to_six_digits_and_as_measured_to_three(tmp_path):
+def test_stress_and_travel_are_as_told_to_six_digits_and_as_measured_to_three(tmp_path: Path) -> None:
     folder = write_test(tmp_path / "a", 125, log=None)
     (measured,), _ = read_by_hand([folder], MODEL, 2)
     assert measured.stresses == [125]
@@ -139,7 +146,7 @@ def test_stress_and_travel_are_as_told_to_six_digits_and_as_measured_to_three(tm
     assert (run.stresses, run.identity["travel_mm"]) == ([33.3], 8.0125)
 
 
-def test_a_packing_counts_once(tmp_path):
+def test_a_packing_counts_once(tmp_path: Path) -> None:
     for name in ("a", "b"):
         write_test(tmp_path / name, 100)
     report_on(tmp_path)
@@ -152,7 +159,7 @@ def shearbox(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str]
     return cli.main(["report", *words]), capsys.readouterr().err
 
 
-def test_what_no_log_tells_is_asked_for(tmp_path, capsys):
+def test_what_no_log_tells_is_asked_for(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder = str(write_test(tmp_path / "a", 100, log=None))
     assert shearbox(capsys, folder) == (
         2, f"shearbox: {folder}: no log in it (shear.log, log.lammps or log.liggghts) tells the model: give --model, a name or a file\n",
@@ -165,7 +172,7 @@ def test_what_no_log_tells_is_asked_for(tmp_path, capsys):
     assert "σ is the mean of its column" in summary["notes"][0]
 
 
-def test_a_model_that_has_moved_is_named(tmp_path, capsys):
+def test_a_model_that_has_moved_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder = write_test(tmp_path / "a", 100)
     log = folder / "shear.log"
     log.write_text(log.read_text(encoding="utf-8").replace(f"{MODEL}.in", "gone.in"), encoding="utf-8")
@@ -173,7 +180,7 @@ def test_a_model_that_has_moved_is_named(tmp_path, capsys):
     assert status == 2 and "gone.in: No such file" in message and "--model tells a name or a file" in message
 
 
-def test_a_test_that_was_stopped_or_damaged_is_left_out(tmp_path):
+def test_a_test_that_was_stopped_or_damaged_is_left_out(tmp_path: Path) -> None:
     write_test(tmp_path / "whole", 100)
     synthetic.write_shear(write_test(tmp_path / "stopped", 200) / "shear.dat", synthetic.curves(200, 8), slice(0, 300))
     (write_test(tmp_path / "damaged", 300) / "shear.dat").write_text("# step\n1 2\n", encoding="utf-8")
@@ -187,19 +194,23 @@ def test_a_test_that_was_stopped_or_damaged_is_left_out(tmp_path):
 @pytest.mark.parametrize(
     "speed, message", [("0", "0.001 to 1000 mm/s"), ("nan", "0.001 to 1000"), ("x", "not a number")]
 )
-def test_a_speed_that_cannot_be_is_refused(tmp_path, capsys, speed, message):
+def test_a_speed_that_cannot_be_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], speed: str, message: str
+) -> None:
     with pytest.raises(SystemExit):
         cli.main(["report", str(tmp_path), "--speed", speed])
     assert message in capsys.readouterr().err
 
 
-def test_options_are_refused_where_the_record_tells(tmp_path, capsys):
+def test_options_are_refused_where_the_record_tells(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "run.json").write_text("{}", encoding="utf-8")
     status, message = shearbox(capsys, str(tmp_path), "--speed", "2")
     assert status == 2 and "--speed 2.0: run.json tells it" in message
 
 
-def test_the_folder_one_is_in_has_a_name(tmp_path, capsys, monkeypatch):
+def test_the_folder_one_is_in_has_a_name(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     place = write_test(tmp_path / "test 7", 100, packing=None)
     monkeypatch.chdir(place)
     assert cli.main(["report", "."]) == 0
@@ -207,7 +218,7 @@ def test_the_folder_one_is_in_has_a_name(tmp_path, capsys, monkeypatch):
     assert summary["notes"][0].startswith("test 7: run by hand")
 
 
-def test_one_specimen_has_the_report_of_a_run(tmp_path):
+def test_one_specimen_has_the_report_of_a_run(tmp_path: Path) -> None:
     """With its pictures, also if it was stopped; without them if frames are gone, which is said."""
     place = write_test(tmp_path / "a", 100)
     synthetic.write_shear(place / "shear.dat", synthetic.curves(100, 8), slice(0, 300))

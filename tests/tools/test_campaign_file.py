@@ -2,6 +2,7 @@
 """Campaign files: which options count, in which order runs are carried out, and what is refused."""
 
 import json
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -23,7 +24,7 @@ set = {{ phi = 35, sides = "discs" }}
 """
 
 
-def campaign(folder: Path, text: str, *options: str, **environment: str):
+def campaign(folder: Path, text: str, *options: str, **environment: str) -> subprocess.Popen[str]:
     """shearbox run of a file of that text, into the folder `results` beside it."""
     file = folder / "study.toml"
     file.write_text(text, encoding="utf-8")

@@ -28,7 +28,7 @@ def show(console: Console, monkeypatch: pytest.MonkeyPatch) -> str:
     return console.file.getvalue()
 
 
-def test_plain_lines(monkeypatch):
+def test_plain_lines(monkeypatch: pytest.MonkeyPatch) -> None:
     text = show(Console(file=io.StringIO(), width=200), monkeypatch)
     assert text.splitlines() == [
         "pack: started",
@@ -42,7 +42,7 @@ def test_plain_lines(monkeypatch):
     ]
 
 
-def test_bars_on_a_terminal(monkeypatch):
+def test_bars_on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     text = show(Console(file=io.StringIO(), width=120, force_terminal=True), monkeypatch)
     assert "all" in text and "8.00 mm" in text and "about 5 min left" in text
     assert "shear 100 kPa: done in 3 min" in text
@@ -61,17 +61,17 @@ def test_bars_on_a_terminal(monkeypatch):
         (12000, "3 h 20 min"),
     ],
 )
-def test_durations(seconds, text):
+def test_durations(seconds: float, text: str) -> None:
     assert words.duration(seconds) == text
     assert words.about(seconds) == (text if text.startswith("under") else f"about {text}")
 
 
 @pytest.mark.parametrize("size, text", [(0.2e6, "0 MB"), (46e6, "46 MB"), (999.6e6, "1.0 GB"), (4838e6, "4.8 GB")])
-def test_amounts(size, text):
+def test_amounts(size: float, text: str) -> None:
     assert words.amount(size) == text
 
 
-def test_time_left_of_the_whole_follows_from_the_work_done(monkeypatch):
+def test_time_left_of_the_whole_follows_from_the_work_done(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of 100 s of expected work 10 s took 40: 4 s each. What is given up takes no time."""
     now = [0.0]
     monkeypatch.setattr(time, "monotonic", lambda: now[0])
@@ -86,7 +86,7 @@ def test_time_left_of_the_whole_follows_from_the_work_done(monkeypatch):
     assert whole.seconds_left() == pytest.approx(30)
 
 
-def test_what_was_done_before_says_nothing_of_the_speed(monkeypatch):
+def test_what_was_done_before_says_nothing_of_the_speed(monkeypatch: pytest.MonkeyPatch) -> None:
     now = [0.0]
     monkeypatch.setattr(time, "monotonic", lambda: now[0])
     whole = display.Whole({"a": 50.0, "b": 50.0}, {"a": 1.0})

@@ -11,6 +11,7 @@ from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -32,7 +33,7 @@ from shearbox_tools.stress_dilatancy import Dilatant
 
 
 @pytest.fixture(name="runs", scope="module")
-def _runs(tmp_path_factory) -> list[Results]:
+def _runs(tmp_path_factory: pytest.TempPathFactory) -> list[Results]:
     """Specimens of seeds 1, 2, 3; the lid of the last sinks."""
     folder = tmp_path_factory.mktemp("specimens")
     return [
@@ -41,11 +42,11 @@ def _runs(tmp_path_factory) -> list[Results]:
     ]
 
 
-def with_identity(run: Results, **changes) -> Results:
+def with_identity(run: Results, **changes: Any) -> Results:
     return replace(run, identity=run.identity | changes)
 
 
-def test_runs_that_differ_in_more_than_their_seeds_are_not_put_together(runs):
+def test_runs_that_differ_in_more_than_their_seeds_are_not_put_together(runs: list[Results]) -> None:
     one, two, three = runs
     fast = [with_identity(run, speed_mm_s=10) for run in (one, two)]
     rough = with_identity(three, parameters=one.identity["parameters"] | {"phi": "30"})
@@ -55,14 +56,14 @@ def test_runs_that_differ_in_more_than_their_seeds_are_not_put_together(runs):
     assert what_differs(ensembles) == ["speed 2 mm/s, φ_μ 27°", "speed 10 mm/s, φ_μ 27°", "speed 2 mm/s, φ_μ 30°"]
 
 
-def test_a_packing_counts_once(runs):
+def test_a_packing_counts_once(runs: list[Results]) -> None:
     copied = replace(runs[0], folder=Path("copy"))
     (ensemble,), (left_out,) = put_together([*runs, copied])
     assert ensemble.count == 3
     assert left_out.folder == Path("copy") and "the same packing as" in left_out.reason
 
 
-def test_the_mean_curve_is_the_mean_at_equal_displacements(runs):
+def test_the_mean_curve_is_the_mean_at_equal_displacements(runs: list[Results]) -> None:
     """Of curves f tau(s) it is the mean of f times tau, and the deviation that of f: no grid is in it.
 
     The tables have ten digits.
@@ -76,7 +77,7 @@ def test_the_mean_curve_is_the_mean_at_equal_displacements(runs):
     assert curve.peak.value == pytest.approx(np.mean([run.shears[1].peak.value for run in runs]), rel=1e-6)
 
 
-def test_specimens_that_peak_elsewhere_have_a_lower_mean(runs):
+def test_specimens_that_peak_elsewhere_have_a_lower_mean(runs: list[Results]) -> None:
     """Two curves with peaks of equal height apart: the mean has none as high."""
     shear = runs[1].shears[1]
     s = shear.data["displacement_mm"]
@@ -86,7 +87,7 @@ def test_specimens_that_peak_elsewhere_have_a_lower_mean(runs):
     assert curve.tau.mean.max() == pytest.approx(np.max((shear.data["tau_kPa"] + late["tau_kPa"]) / 2), abs=0.01)
 
 
-def test_curves_of_other_lengths_are_averaged_where_all_are(runs):
+def test_curves_of_other_lengths_are_averaged_where_all_are(runs: list[Results]) -> None:
     shear = runs[0].shears[0]
     curve = average([shear, replace(shear, rows=slice(10, 700))])
     s = shear.data["displacement_mm"]
@@ -94,7 +95,7 @@ def test_curves_of_other_lengths_are_averaged_where_all_are(runs):
     assert curve.tau.deviation == pytest.approx(0, abs=2e-3), "the same curve, interpolated between its rows"
 
 
-def test_strength_is_that_of_the_specimens_own_lines(runs):
+def test_strength_is_that_of_the_specimens_own_lines(runs: list[Results]) -> None:
     """tau / sigma = tan(phi) + c / sigma by least squares, specimen by specimen; numpy's fit knows nothing of ours."""
     ensemble = Ensemble(runs)
     lines = [
@@ -105,10 +106,11 @@ def test_strength_is_that_of_the_specimens_own_lines(runs):
     assert float(ensemble.strength.c_kPa.value) == pytest.approx(c)
     assert float(ensemble.strength.phi_deg.value) == pytest.approx(np.degrees(np.arctan(slope)))
     ratios = [np.mean([s.at_end.ratio for s in run.shears]) for run in runs]
-    assert float(ensemble.ultimate_angle.value) == pytest.approx(np.degrees(np.arctan(np.mean(ratios))))
+    ultimate = ensemble.ultimate_angle
+    assert ultimate and float(ultimate.value) == pytest.approx(np.degrees(np.arctan(np.mean(ratios))))
 
 
-def test_strength_by_the_shear_plane(runs):
+def test_strength_by_the_shear_plane(runs: list[Results]) -> None:
     """Where the plane has 1.25 times the lid's stress and 0.8 of the lower half's, cohesion is 0.8 times as large and
     tan(phi) 0.8/1.25 times; and where they are not known, there is none."""
 
@@ -133,7 +135,7 @@ def test_strength_by_the_shear_plane(runs):
     assert ensemble.strength and ensemble.plane_strength is None
 
 
-def test_a_packing_for_each_stress_is_another_model(runs):
+def test_a_packing_for_each_stress_is_another_model(runs: list[Results]) -> None:
     """All peaks are on a line c + sigma tan(phi), so the interval has no width."""
     single = [only(run, sigma) for run, sigma in zip(runs, (100.0, 200.0, 300.0))]
     ensemble = Ensemble(single)
@@ -143,7 +145,7 @@ def test_a_packing_for_each_stress_is_another_model(runs):
     assert Ensemble(single[:2]).doubts == ["2 peaks: at least 3 are needed"]
 
 
-def test_stresses_that_some_lack_are_averaged_and_not_part_of_the_line(runs):
+def test_stresses_that_some_lack_are_averaged_and_not_part_of_the_line(runs: list[Results]) -> None:
     ensemble = Ensemble([*runs[:2], only(runs[2], 100.0, 300.0)])
     assert ensemble.common == [100, 300]
     assert [len(shears) for shears in ensemble.shears.values()] == [3, 2, 3]
@@ -151,7 +153,7 @@ def test_stresses_that_some_lack_are_averaged_and_not_part_of_the_line(runs):
     assert "at least 2" in Ensemble([runs[0], only(runs[1], 100.0)]).doubts[0]
 
 
-def test_shares_of_specimens(runs):
+def test_shares_of_specimens(runs: list[Results]) -> None:
     """The lid of one of three sinks; the mean, (1 + 1 - 1) / 3 of a rise, does not tell."""
     ensemble = Ensemble(runs)
     assert ensemble.share("dilates") == (2, 3)
@@ -162,11 +164,11 @@ def test_shares_of_specimens(runs):
     assert Ensemble(runs[:2]).verdicts["dilates"].holds, "two equal rises leave no doubt"
 
 
-def all_with(runs: Sequence[Results], **changes) -> list[Results]:
+def all_with(runs: Sequence[Results], **changes: Any) -> list[Results]:
     return [replace(run, shears=[replace(shear, **changes) for shear in run.shears]) for run in runs]
 
 
-def test_what_no_specimen_tells_the_mean_does_not(runs):
+def test_what_no_specimen_tells_the_mean_does_not(runs: list[Results]) -> None:
     """8 mm are 0.8 % of a box of a metre: too short for any peak, of one specimen or of several."""
     for count in (1, 2):
         ensemble = Ensemble(all_with(runs[:count], width=1000.0))
@@ -180,7 +182,7 @@ def test_what_no_specimen_tells_the_mean_does_not(runs):
         assert features["dilates"].reason == "cannot be judged at 100 kPa, 200 kPa, 300 kPa"
 
 
-def test_quasi_static_is_told_with_the_greatest_numbers(runs):
+def test_quasi_static_is_told_with_the_greatest_numbers(runs: list[Results]) -> None:
     limits = [Inertia(2.9e-3, 0.1), Inertia(1e-4, 40.0), Inertia(1e-4, 0.2)]
     fast = [one for run, inertia in zip(runs, limits) for one in all_with([run], inertia=inertia)]
     verdict = Ensemble(fast).verdicts_by_stress[100]["quasi_static"]
@@ -194,7 +196,7 @@ def test_quasi_static_is_told_with_the_greatest_numbers(runs):
     "factor, doubt",
     [(0.0, "100 kPa: τ at its peak is 0 kPa: a strength is above 0"), (-1.0, "100 kPa: τ at its peak is -")],
 )
-def test_a_test_that_nothing_resists_is_reported_on(tmp_path, factor, doubt):
+def test_a_test_that_nothing_resists_is_reported_on(tmp_path: Path, factor: float, doubt: str) -> None:
     """As of a half that moves without grains on it, or is pushed along: there is no strength, and the report says why."""
     for seed in (1, 2):
         folder = write_run(tmp_path / f"seed_{seed}", replace(REQUEST, seed=seed), factor)
@@ -218,7 +220,7 @@ def by_rowe(critical: float, psi: float) -> Dilatant:
     return Dilatant(float(sine * np.cos(psi) / (1 - sine * np.sin(psi))), float(np.tan(psi)))
 
 
-def test_a_relation_that_holds_changes_nothing_from_peak_to_end():
+def test_a_relation_that_holds_changes_nothing_from_peak_to_end() -> None:
     """Specimens that follow Rowe, each with a phi_cv of its own."""
     every = Ensemble([states(by_rowe(cv, psi), by_rowe(cv, 0)) for cv, psi in ((24, 10), (27, 15), (25, 12))])
     rowe, bolton = every.change_of_critical("rowe"), every.change_of_critical("bolton")
@@ -234,21 +236,21 @@ class Links(HTMLParser):
         self.open: list[str] = []
         self.text = ""
 
-    def handle_starttag(self, tag, attributes):
+    def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
         values = dict(attributes)
-        self.found += [values[name] for name in ("href", "src") if name in values]
+        self.found += [value for name in ("href", "src") if (value := values.get(name)) is not None]
         if tag not in ("meta", "br", "img"):
             self.open.append(tag)
 
-    def handle_endtag(self, tag):
+    def handle_endtag(self, tag: str) -> None:
         assert self.open.pop() == tag
 
-    def handle_data(self, data):
+    def handle_data(self, data: str) -> None:
         self.text += data
 
 
 @pytest.fixture(name="folder", scope="module")
-def _folder(tmp_path_factory) -> Path:
+def _folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Two specimens, one at another speed, one that was stopped and one whose record is damaged; each at its own depth."""
     folder = tmp_path_factory.mktemp("many")
     two = replace(REQUEST, stresses=(100.0, 300.0))
@@ -263,7 +265,7 @@ def _folder(tmp_path_factory) -> Path:
     return folder
 
 
-def test_the_page_is_well_formed_and_its_links_lead_somewhere(folder):
+def test_the_page_is_well_formed_and_its_links_lead_somewhere(folder: Path) -> None:
     page = Links()
     page.feed((folder / "report.html").read_text(encoding="utf-8"))
     assert not page.open
@@ -279,7 +281,7 @@ def test_the_page_is_well_formed_and_its_links_lead_somewhere(folder):
         assert words in " ".join(page.text.split()), words
 
 
-def test_tables_of_an_earlier_report_do_not_stay(tmp_path):
+def test_tables_of_an_earlier_report_do_not_stay(tmp_path: Path) -> None:
     """Of two ensembles there are two tables, in the place of that of one; what no report has written stays."""
     (tmp_path / "curves_7.csv").write_text("mine", encoding="utf-8")
     two = replace(REQUEST, stresses=(100.0,))
@@ -314,7 +316,7 @@ def test_pictures_do_not_decide_which_specimens_count(tmp_path: Path, name: str)
     assert own["complete"] and f"{name}.dump" in own["problems"][0]
 
 
-def test_the_summary_says_what_is_left_out(folder):
+def test_the_summary_says_what_is_left_out(folder: Path) -> None:
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     found = {one["differs"]: [s["folder"] for s in one["specimens"]] for one in summary["ensembles"]}
     assert found == {"speed 10 mm/s": ["fast"], "speed 2 mm/s": ["slow/seed_2", "slow/seed_10"]}
@@ -326,13 +328,13 @@ def test_the_summary_says_what_is_left_out(folder):
     assert both["phi_deg"]["low"] < both["phi_deg"]["value"] < both["phi_deg"]["high"] and both["fit_alone"] is None
 
 
-def test_the_table_has_the_curves(folder):
-    table = np.genfromtxt(folder / "curves_2.csv", delimiter=",", names=True)
+def test_the_table_has_the_curves(folder: Path) -> None:
+    table: np.ndarray = np.genfromtxt(folder / "curves_2.csv", delimiter=",", names=True)
     assert sorted(set(table["sigma_kPa"])) == [100, 300] and set(table["specimens"]) == {2}
     assert table["tau_standard_error_kPa"] == pytest.approx(table["tau_standard_deviation_kPa"] / np.sqrt(2), rel=1e-6)
 
 
-def test_nothing_complete_is_no_report(tmp_path):
+def test_nothing_complete_is_no_report(tmp_path: Path) -> None:
     write_run(tmp_path / "a", replace(REQUEST, stresses=(100.0,)), rows=300)
     with pytest.raises(ShearboxError, match="no specimen is complete yet\n.*100 kPa"):
         report_on(tmp_path)
@@ -341,7 +343,7 @@ def test_nothing_complete_is_no_report(tmp_path):
         report_on(tmp_path / "a" / "100" / "none")
 
 
-def test_runs_are_found_at_any_depth_but_not_within_runs(folder):
+def test_runs_are_found_at_any_depth_but_not_within_runs(folder: Path) -> None:
     inner = folder / "fast" / "100" / "run.json"
     shutil.copy(folder / "fast" / "run.json", inner)
     names = [str(path.relative_to(folder)) for path in find_runs(folder)]
@@ -350,11 +352,11 @@ def test_runs_are_found_at_any_depth_but_not_within_runs(folder):
     assert find_runs(folder / "fast") == [folder / "fast"]
 
 
-def test_a_folder_that_cannot_be_read_is_named(folder, monkeypatch):
+def test_a_folder_that_cannot_be_read_is_named(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Rather than left out of a mean; modes do not stop root, who may run this."""
     scan = os.scandir
 
-    def locked(path):
+    def locked(path: Any) -> Any:
         if Path(path) == folder / "slow":
             raise PermissionError(errno.EACCES, "Permission denied", str(path))
         return scan(path)
@@ -364,32 +366,31 @@ def test_a_folder_that_cannot_be_read_is_named(folder, monkeypatch):
         find_runs(folder)
 
 
-def test_what_is_set_is_told():
+def test_what_is_set_is_told() -> None:
     usual = read_variables(PARAMETERS)
     of_file = {name: value for name, value in usual.items() if name not in OWN_OPTION}
     identity = REQUEST.identity(of_file | {"phi": "35.0", "kn": "1e8"})  # kn as it is, in other words
     identity |= {"stiffness": 0.1, "model dmin": 0.0045}
     run = SimpleNamespace(identity=identity, model_file=REQUEST.model.path)
-    ensemble = SimpleNamespace(identity=identity, specimens=[run])
+    ensemble: Any = SimpleNamespace(identity=identity, specimens=[run])
     assert what_is_set(ensemble) == "dmin 0.0045, stiffness 0.1, φ_μ 35°"
     run.model_file = Path("gone.in")
     assert what_is_set(ensemble) == "stiffness 0.1, φ_μ 35°"
 
 
-def test_means_over_stresses_are_of_those_that_all_have(runs):
+def test_means_over_stresses_are_of_those_that_all_have(runs: list[Results]) -> None:
     one, two, three = runs
     fewer = replace(two, stresses=[100.0, 200.0], shears=two.shears[:2])
     mean = Ensemble([one, fewer, three]).over_specimens(lambda shear: shear.sigma)
-    assert (mean.value, mean.low, mean.high) == (150, 150, 150)
+    assert mean and [float(value) for value in (mean.value, mean.low, mean.high)] == [150, 150, 150]
     apart = [replace(run, stresses=[shear.sigma], shears=[shear]) for run, shear in zip(runs, one.shears)]
-    assert (
-        Ensemble(apart).over_specimens(lambda shear: shear.sigma).value == 200
-    ), "each stress has a packing of its own"
+    each = Ensemble(apart).over_specimens(lambda shear: shear.sigma)
+    assert each and each.value == 200, "each stress has a packing of its own"
     none = [replace(one, shears=one.shears[:1]), replace(two, shears=two.shears[1:])]
     assert Ensemble([*none, three]).over_specimens(lambda shear: shear.sigma) is None
 
 
-def test_a_line_of_peaks_that_are_in_doubt_is_not_shown(runs):
+def test_a_line_of_peaks_that_are_in_doubt_is_not_shown(runs: list[Results]) -> None:
     """In the table of specimens, as it is not in the report on that one."""
     one, two, three = runs
     short = replace(one, shears=[replace(one.shears[0], complete=False), *one.shears[1:]])
@@ -398,7 +399,7 @@ def test_a_line_of_peaks_that_are_in_doubt_is_not_shown(runs):
     assert short.line and first["phi_deg"] is None and second["phi_deg"] > 0
 
 
-def test_models_of_a_name_are_told_apart_by_their_variables(runs):
+def test_models_of_a_name_are_told_apart_by_their_variables(runs: list[Results]) -> None:
     """Those of another name are told apart by it."""
     finer = with_identity(runs[0], **{"model dmin": 0.003, "model ngrains": 500})
     other = with_identity(runs[0], model="other", **{"model dmin": 0.002})

@@ -27,7 +27,7 @@ def identity(folder: Path) -> dict:
     return json.loads((folder / "run.json").read_text(encoding="utf-8"))["identity"]
 
 
-def test_two_specimens_keep_two_cores_busy(folder, tmp_path):
+def test_two_specimens_keep_two_cores_busy(folder: Path, tmp_path: Path) -> None:
     """Packings run side by side, and the stresses of one specimen beside the packing of the next."""
     diary = tmp_path / "diary"
     done = shearbox(folder, "--seeds", "3", "--stress", "100", "200", FAKE_DIARY=str(diary))
@@ -47,7 +47,7 @@ def test_two_specimens_keep_two_cores_busy(folder, tmp_path):
     assert diary.stat().st_size == before, "nothing is left to do"
 
 
-def test_a_seed_and_a_stress_may_follow(folder, tmp_path):
+def test_a_seed_and_a_stress_may_follow(folder: Path, tmp_path: Path) -> None:
     diary = tmp_path / "diary"
     assert shearbox(folder, "--seeds", "3", "7", "--stress", "100").returncode == 0
     more = ("--seeds", "3", "5-5", "7", "--stress", "100", "300")
@@ -56,7 +56,7 @@ def test_a_seed_and_a_stress_may_follow(folder, tmp_path):
     assert sheared == {"seed_3/300", "seed_5/100", "seed_5/300", "seed_7/300"}
 
 
-def test_every_stress_may_have_a_packing_of_its_own(folder):
+def test_every_stress_may_have_a_packing_of_its_own(folder: Path) -> None:
     assert shearbox(folder, *TWO, "--independent").returncode == 0
     there = {path.parent.name: identity(path.parent)["seed"] for path in folder.glob("*/run.json")}
     assert there == {
@@ -67,7 +67,7 @@ def test_every_stress_may_have_a_packing_of_its_own(folder):
 
 
 @pytest.mark.parametrize("sign, how", [(signal.SIGINT, "command"), (signal.SIGKILL, "folder")])
-def test_stopped_and_taken_up_again(folder, tmp_path, sign, how):
+def test_stopped_and_taken_up_again(folder: Path, tmp_path: Path, sign: signal.Signals, how: str) -> None:
     """What comes out is what an undisturbed run leaves."""
     options = (*TWO, "--jobs", "3")
     run = start(MODEL, "--out", str(folder), *options, FAKE_SECONDS="20")
@@ -98,7 +98,7 @@ def test_stopped_and_taken_up_again(folder, tmp_path, sign, how):
 
 
 @pytest.mark.parametrize("place, left", [("seed_1/packed", "pack"), ("seed_1/200", "shear 200 kPa")])
-def test_a_specimen_that_fails_does_not_cost_the_others(folder, place, left):
+def test_a_specimen_that_fails_does_not_cost_the_others(folder: Path, place: str, left: str) -> None:
     failed = shearbox(folder, "--seeds", "3", "--stress", "100", "200", FAKE_FAIL=place)
     assert failed.returncode == 1
     assert f"seed_1 {left} failed: ERROR: Lost atoms" in failed.stderr and str(folder / "seed_1") in failed.stderr
@@ -110,7 +110,7 @@ def test_a_specimen_that_fails_does_not_cost_the_others(folder, place, left):
     assert "The other results are kept" in failed.stderr
 
 
-def test_a_specimen_in_use_is_named(folder):
+def test_a_specimen_in_use_is_named(folder: Path) -> None:
     first = start(MODEL, "--out", str(folder / "seed_2"), "--seed", "2", "--stress", "100", FAKE_SECONDS="15")
     wait_for(lambda: (folder / "seed_2" / "100" / "shear.dat").exists())
     refused = shearbox(folder, "--seeds", "2", "--stress", "100")
@@ -120,11 +120,11 @@ def test_a_specimen_in_use_is_named(folder):
     assert re.search(rf"seed_2 is in use by another run: process .*\b{first.pid} ", refused.stderr)
 
 
-def test_a_dry_run_tells_of_all(folder):
+def test_a_dry_run_tells_of_all(folder: Path) -> None:
     """Eight times the disk of one; and two at a time all of the work takes half of it."""
     told = {n: shearbox(folder, "--dry-run", "--seeds", n).stdout for n in ("1", "8")}
     assert not folder.exists()
-    sizes = {n: int(re.search(r"(\d+) MB of disk", text)[1]) for n, text in told.items()}
+    sizes = {n: int(re.findall(r"(\d+) MB of disk", text)[0]) for n, text in told.items()}
     assert sizes["8"] == pytest.approx(8 * sizes["1"], abs=8)
     assert told["8"].count("9 phases") == 8 and told["8"].count("350 grains") == 1
 
@@ -151,7 +151,7 @@ REFUSED = [
 
 
 @pytest.mark.parametrize("options, message", REFUSED, ids=[" ".join(options) for options, _ in REFUSED])
-def test_what_cannot_be_meant_is_refused_before_anything_starts(folder, options, message):
+def test_what_cannot_be_meant_is_refused_before_anything_starts(folder: Path, options: list[str], message: str) -> None:
     refused = shearbox(folder, *options)
     assert refused.returncode == 2, refused.stdout
     assert message in refused.stderr and "Traceback" not in refused.stderr
@@ -159,7 +159,7 @@ def test_what_cannot_be_meant_is_refused_before_anything_starts(folder, options,
 
 
 @pytest.fixture(name="used", scope="module")
-def _used(tmp_path_factory) -> Path:
+def _used(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("used") / "results"
     assert shearbox(folder, "--seeds", "1", "2", "--stress", "100").returncode == 0
     return folder
@@ -175,14 +175,14 @@ def _used(tmp_path_factory) -> Path:
         ([], "holds something else than a run"),
     ],
 )
-def test_a_folder_of_another_request_is_refused(used, options, message):
+def test_a_folder_of_another_request_is_refused(used: Path, options: list[str], message: str) -> None:
     before = {path: path.stat().st_mtime_ns for path in used.rglob("*")}
     refused = shearbox(used, "--stress", "100", *options)
     assert refused.returncode == 2 and message in refused.stderr, refused.stderr
     assert {path: path.stat().st_mtime_ns for path in used.rglob("*")} == before
 
 
-def test_a_folder_of_something_else_is_refused(folder, used):
+def test_a_folder_of_something_else_is_refused(folder: Path, used: Path) -> None:
     folder.mkdir()
     (folder / "letter.txt").write_text("dear", encoding="utf-8")
     assert "holds something else than runs" in shearbox(folder, "--seeds", "2").stderr
@@ -190,7 +190,7 @@ def test_a_folder_of_something_else_is_refused(folder, used):
     assert [path.name for path in folder.iterdir()] == ["letter.txt"]
 
 
-def test_runs_that_are_there_go_on_as_they_were_asked_for(used):
+def test_runs_that_are_there_go_on_as_they_were_asked_for(used: Path) -> None:
     refused = go_on(used, "--stress", "300")
     assert refused.returncode == 2
     assert (
@@ -198,7 +198,7 @@ def test_runs_that_are_there_go_on_as_they_were_asked_for(used):
     )
 
 
-def test_a_folder_without_runs_is_no_ensemble(folder):
+def test_a_folder_without_runs_is_no_ensemble(folder: Path) -> None:
     folder.mkdir()
     refused = go_on(folder)
     assert refused.returncode == 2 and "holds no run" in refused.stderr

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -49,7 +50,7 @@ def table(path: Path) -> dict[str, np.ndarray]:
     return dict(zip(names, np.loadtxt(path, delimiter=",", skiprows=1).T))
 
 
-def test_csv(folder, tmp_path):
+def test_csv(folder: Path, tmp_path: Path) -> None:
     """Values of the dumps; walls apart; what a hexagonal packing that shears homogeneously has moved."""
     place = exported(folder, tmp_path, "--to", "csv") / "csv" / "100"
     grains, discs, walls, contacts = (table(place / f"{n}_00002.csv") for n in ("grains", "discs", "walls", "contacts"))
@@ -59,7 +60,7 @@ def test_csv(folder, tmp_path):
     for name in ("id", "x", "y", "radius", "angle"):
         assert np.array_equal(grains[name], dumped[name][inside]), name
     assert np.array_equal(
-        grains["rotation"], np.float64([f"{v:.9g}" for v in (dumped["angle"] - first["angle"])[inside]])
+        grains["rotation"], np.array([float(f"{v:.9g}") for v in (dumped["angle"] - first["angle"])[inside]])
     )
     np.testing.assert_allclose(grains["moved_x"], (dumped["x"] - first["x"])[inside], rtol=1e-8, atol=1e-15)
     assert len(discs["id"]) == inside.sum() and len(walls["id"]) == (~inside).sum()
@@ -68,7 +69,7 @@ def test_csv(folder, tmp_path):
     assert (contacts["branch_x"] * contacts["nx"] + contacts["branch_y"] * contacts["ny"] > 0).all()
 
 
-def test_the_series(folder, tmp_path):
+def test_the_series(folder: Path, tmp_path: Path) -> None:
     place = exported(folder, tmp_path, "--to", "csv", "--frames", "::2") / "csv"
     times = table(place / "100" / "frames.csv")
     assert list(times["frame"]) == [0, 2] and list(times["step"]) == [0, 4000000]
@@ -78,7 +79,7 @@ def test_the_series(folder, tmp_path):
     assert (place / "200" / "frames.csv").read_text(encoding="utf-8").splitlines()[2].endswith(",")
 
 
-def read_vtk(path: Path):
+def read_vtk(path: Path) -> Any:
     io, numpy_support = pytest.importorskip("vtkmodules.vtkIOXML"), pytest.importorskip("vtkmodules.util.numpy_support")
     reader = io.vtkXMLPolyDataReader() if path.suffix == ".vtp" else io.vtkXMLRectilinearGridReader()
     reader.SetFileName(str(path))
@@ -86,7 +87,7 @@ def read_vtk(path: Path):
     return reader.GetOutput(), numpy_support.vtk_to_numpy
 
 
-def test_vtk(folder, tmp_path):
+def test_vtk(folder: Path, tmp_path: Path) -> None:
     """Places, diameters, vectors, counts, and step and time beside them."""
     place = exported(folder, tmp_path, "--to", "vtk", "--stress", "100") / "vtk" / "100"
     discs, array = read_vtk(place / "discs_00001.vtp")
@@ -108,7 +109,7 @@ def test_vtk(folder, tmp_path):
     assert array(cells.GetCellData().GetArray("stress_yy")) == pytest.approx(np.full(100, 1000))
 
 
-def test_the_series_of_vtk_names_all_files_and_their_times(folder, tmp_path):
+def test_the_series_of_vtk_names_all_files_and_their_times(folder: Path, tmp_path: Path) -> None:
     place = exported(folder, tmp_path, "--to", "vtk") / "vtk" / "100"
     found = re.findall(r'timestep="(.*?)" file="(.*?)"', (place / "discs.pvd").read_text(encoding="utf-8"))
     assert [float(time) for time, _ in found] == pytest.approx([step * DT for step in STEPS])
@@ -119,7 +120,7 @@ def test_the_series_of_vtk_names_all_files_and_their_times(folder, tmp_path):
 
 
 @pytest.mark.skipif(not shutil.which("pvpython"), reason="no pvpython: Debian's python3-paraview is not installed")
-def test_paraview(folder, tmp_path):
+def test_paraview(folder: Path, tmp_path: Path) -> None:
     """The series with its times, and every disc."""
     place = exported(folder, tmp_path, "--to", "vtk", "--stress", "100") / "vtk" / "100"
     script = tmp_path / "look.py"
@@ -131,7 +132,7 @@ def test_paraview(folder, tmp_path):
     assert (tmp_path / "seen").read_text().strip() == f"{[step * DT for step in STEPS]} {synthetic.GRAINS}"
 
 
-def test_parquet(folder, tmp_path):
+def test_parquet(folder: Path, tmp_path: Path) -> None:
     pandas = pytest.importorskip("pandas")
     pytest.importorskip("pyarrow", reason="pyarrow is not in Debian 12: pip install 'pyarrow<18'")
     place = exported(folder, tmp_path, "--to", "parquet", "--stress", "100", "--frames", "1") / "parquet" / "100"
@@ -141,7 +142,7 @@ def test_parquet(folder, tmp_path):
     assert frame["id1"].dtype == "int64"
 
 
-def test_a_disc_keeps_its_id_whatever_the_order_of_rows_in_its_frame(folder, tmp_path):
+def test_a_disc_keeps_its_id_whatever_the_order_of_rows_in_its_frame(folder: Path, tmp_path: Path) -> None:
     """LAMMPS sorts atoms from time to time; what a disc has moved, by its id, is what a homogeneous shear moves it."""
     place = tmp_path / "run" / "100"
     shutil.copytree(folder / "100", place)
@@ -158,18 +159,18 @@ def test_a_disc_keeps_its_id_whatever_the_order_of_rows_in_its_frame(folder, tmp
     assert np.array_equal(first["grain"][before], last["grain"][after])
     shear = 0.008 * (0.5 - first["y"] / 0.1) + 0.004
     np.testing.assert_allclose(last["x"][after] - first["x"][before], shear[before], atol=1e-8)
-    rows = [table(tmp_path / "csv" / "100" / f"discs_0000{k}.csv")["id"] for k in (0, 2)]
-    assert np.array_equal(*rows)
+    one, other = (table(tmp_path / "csv" / "100" / f"discs_0000{k}.csv")["id"] for k in (0, 2))
+    assert np.array_equal(one, other)
 
 
-def test_discs_of_a_grain_have_ids_of_their_own(tmp_path):
+def test_discs_of_a_grain_have_ids_of_their_own(tmp_path: Path) -> None:
     """Of three discs each, the second grain lost: those of the third do not change."""
     grains, discs = np.repeat([1.0, 3.0], 3), np.tile([0.0, 1.0, 2.0], 2)
     write_ovito(tmp_path / "a", {"id": grains, "disc": discs, "x": discs, "y": grains}, Instant(0, 0.0, None))
     assert list(Dump(tmp_path / "a", ("id",)).frame(0)["id"]) == [1, 2, 3, 7, 8, 9]
 
 
-def test_frames_of_an_earlier_export_do_not_stay_among_those_chosen_now(folder, tmp_path):
+def test_frames_of_an_earlier_export_do_not_stay_among_those_chosen_now(folder: Path, tmp_path: Path) -> None:
     place = exported(folder, tmp_path, "--to", "csv", "--stress", "100") / "csv" / "100"
     (place / "notes.csv").write_text("a user's own\n")
     exported(folder, tmp_path, "--to", "csv", "--stress", "100", "--frames", "1")
@@ -178,7 +179,7 @@ def test_frames_of_an_earlier_export_do_not_stay_among_those_chosen_now(folder, 
 
 
 @pytest.mark.filterwarnings("ignore")
-def test_ovito(folder, tmp_path):
+def test_ovito(folder: Path, tmp_path: Path) -> None:
     """A particle for each disc, with an id of its own, which ASE reads."""
     place = exported(folder, tmp_path, "--to", "ovito", "--stress", "100", "--frames", "-1") / "ovito" / "100"
     path = place / "discs_00002.dump"
@@ -189,7 +190,7 @@ def test_ovito(folder, tmp_path):
     assert np.array_equal(atoms.positions, np.transpose([seen["x"], seen["y"], 0 * seen["x"]]))
 
 
-def test_ovito_itself(folder, tmp_path):
+def test_ovito_itself(folder: Path, tmp_path: Path) -> None:
     """Sizes, in single precision, and forces as vectors."""
     ovito = pytest.importorskip("ovito.io", reason="OVITO's module is not in Debian: pip install ovito")
     place = exported(folder, tmp_path, "--to", "ovito", "--stress", "100", "--frames", "-1") / "ovito" / "100"
@@ -212,21 +213,26 @@ def test_ovito_itself(folder, tmp_path):
         (["--to", "csv", "--frames", "::0"], "--frames ::0"),
     ],
 )
-def test_nonsense_is_refused_before_anything_is_written(folder, tmp_path, capsys, words, message):
+def test_nonsense_is_refused_before_anything_is_written(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], words: list[str], message: str
+) -> None:
     assert main(["export", str(folder), "--out", str(tmp_path / "out"), *words]) == 2
     assert re.search(message, capsys.readouterr().err)
     assert not (tmp_path / "out").exists()
 
 
-def test_a_missing_library_is_named(folder, tmp_path, capsys, monkeypatch):
-    monkeypatch.setitem(sys.modules, "vtkmodules", None)
+def test_a_missing_library_is_named(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    modules: dict[str, Any] = sys.modules
+    monkeypatch.setitem(modules, "vtkmodules", None)
     assert main(["export", str(folder), "--to", "vtk", "--out", str(tmp_path / "out")]) == 2
     [said] = capsys.readouterr().err.splitlines()
     assert said.startswith("shearbox: --to vtk: ") and said.endswith("; apt-get install python3-vtk9")
     assert not (tmp_path / "out").exists()
 
 
-def test_missing_dumps_are_named(folder, tmp_path, capsys):
+def test_missing_dumps_are_named(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "100").mkdir()
     (tmp_path / "100" / "shear.dat").write_text((folder / "100" / "shear.dat").read_text(encoding="utf-8"))
     assert main(["export", str(tmp_path), "--to", "csv"]) == 1

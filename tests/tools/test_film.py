@@ -19,7 +19,7 @@ from shearbox_tools.cli import main
 from shearbox_tools.models import find_model
 from shearbox_tools.paints import grain_areas, make_paint, mean_stress
 from shearbox_tools.request import Request
-from shearbox_tools.specimen import Film
+from shearbox_tools.specimen import Film, Moment
 
 STEPS = [0, 1000000, 2500000, 4000000]
 TRAVEL = 8.0
@@ -52,7 +52,7 @@ def _frame(film: Image.Image, number: int) -> np.ndarray:
     return np.asarray(film.convert("RGB")) / 255
 
 
-def test_frames(run, frames):
+def test_frames(run: Path, frames: list[np.ndarray]) -> None:
     """8 x 4.5 inches at 110 dpi, and no two alike in the specimen."""
     for frame in frames:
         assert frame.shape == (495, 880, 3)
@@ -61,7 +61,7 @@ def test_frames(run, frames):
     assert not (run / "200" / "film.gif").exists()
 
 
-def test_the_mark_is_where_the_lower_half_is(frames):
+def test_the_mark_is_where_the_lower_half_is(frames: list[np.ndarray]) -> None:
     """In both diagrams, from 0 to the travel, within a pixel and a half."""
     for number, frame in enumerate(frames):
         red = np.abs(frame - to_rgb(scene.MARK_COLOUR)).max(axis=2) < 0.15
@@ -75,7 +75,7 @@ def test_the_mark_is_where_the_lower_half_is(frames):
             assert middle == pytest.approx(880 * (left + width * number / 3 * TRAVEL / end), abs=1.5)
 
 
-def test_the_last_mark_is_of_the_last_row_at_full_speed(run):
+def test_the_last_mark_is_of_the_last_row_at_full_speed(run: Path) -> None:
     """Rows after the stop have the displacement of the end, and spikes."""
     before = synthetic.curves(100, TRAVEL)
     curves = {name: np.append(column, [column[-1], column[-1]]) for name, column in before.items()}
@@ -91,7 +91,7 @@ def test_the_last_mark_is_of_the_last_row_at_full_speed(run):
     assert np.allclose(places, wanted)
 
 
-def test_circles_are_to_scale(run):
+def test_circles_are_to_scale(run: Path) -> None:
     curves = synthetic.curves(100, TRAVEL)
     film = Film(run / "100", curves["step"], curves["displacement_mm"])
     picture = scene.Scene("", curves, film.first(), [film.last()], make_paint("rotation", film.first(), 1))
@@ -104,13 +104,13 @@ def test_circles_are_to_scale(run):
 
 
 @pytest.mark.parametrize("by", ["speed", "stress", "chains"])
-def test_other_films(run, by):
+def test_other_films(run: Path, by: str) -> None:
     assert main(["film", str(run), "--stress", "200", "--by", by, "--format", "gif", "--frames", "2"]) == 0
     with Image.open(run / "200" / f"film_{by}.gif") as film:
         assert film.n_frames == 1
 
 
-def test_stress_of_a_grain():
+def test_stress_of_a_grain() -> None:
     """Pressed by F from two sides: half the trace is 2 r F / (2 A), with A = pi r^2 of a disc. Two discs that overlap have
     the area of both less that of the lens between them."""
     disc = moment([1, 2, 3], [0.0, 2.0, -2.0])
@@ -131,10 +131,10 @@ def test_stress_of_a_grain():
 
 @pytest.mark.skipif(not shutil.which("ffmpeg"), reason="no ffmpeg: apt-get install ffmpeg")
 @pytest.mark.parametrize(("form", "codec"), [("mp4", "h264"), ("webm", "vp9")])
-def test_films_by_ffmpeg(run, form, codec):
+def test_films_by_ffmpeg(run: Path, form: str, codec: str) -> None:
     assert main(["film", str(run), "--stress", "200", "--format", form, "--frames", "::2"]) == 0
     entries = "stream=codec_name,width,height,pix_fmt,nb_read_frames"
-    words = ["-v", "error", "-count_frames", "-show_entries", entries, "-of", "json", run / "200" / f"film.{form}"]
+    words = ["-v", "error", "-count_frames", "-show_entries", entries, "-of", "json", str(run / "200" / f"film.{form}")]
     (seen,) = json.loads(subprocess.run(["ffprobe", *words], check=True, capture_output=True).stdout)["streams"]
     assert (seen["codec_name"], seen["pix_fmt"], seen["nb_read_frames"]) == (codec, "yuv420p", "2")
     assert (seen["width"], seen["height"]) == (1280, 720)
@@ -149,13 +149,13 @@ FORMATS = [
 
 
 @pytest.mark.parametrize("form", FORMATS)
-def test_no_half_film_is_left(run, monkeypatch, form):
+def test_no_half_film_is_left(run: Path, monkeypatch: pytest.MonkeyPatch, form: str) -> None:
     """Stopped at the second frame, what was there before is as it was, and nothing else is there."""
     path = run / "100" / f"film_speed.{form}"
     path.write_text("before")
     show, shown = scene.Scene.show, []
 
-    def stop(self, moment):
+    def stop(self: scene.Scene, moment: Moment) -> None:
         shown.append(moment)
         if len(shown) == 2:
             raise KeyboardInterrupt
@@ -173,12 +173,12 @@ def test_no_half_film_is_left(run, monkeypatch, form):
         (["--frames", "4"], "--frames 4: a number, or FROM:TO:EVERY, of 0 to 3 is expected"),
     ],
 )
-def test_nonsense_is_refused(run, capsys, words, message):
+def test_nonsense_is_refused(run: Path, capsys: pytest.CaptureFixture[str], words: list[str], message: str) -> None:
     assert main(["film", str(run), "--format", "gif", *words]) == 2
     assert re.search(message, capsys.readouterr().err)
 
 
-def test_without_ffmpeg(run, capsys, monkeypatch):
+def test_without_ffmpeg(run: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     """What needs it is refused; nothing else is asked for than what there can be."""
     monkeypatch.setenv("PATH", "")
     assert main(["film", str(run), "--format", "mp4"]) == 2
@@ -188,7 +188,7 @@ def test_without_ffmpeg(run, capsys, monkeypatch):
     assert (run / "200" / "film.gif").stat().st_size > 1000
 
 
-def test_what_cannot_be_filmed(run, tmp_path, capsys):
+def test_what_cannot_be_filmed(run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """No test; no dumps; no frame in them; no record of the thickness."""
     place = tmp_path / "100"
     place.mkdir()

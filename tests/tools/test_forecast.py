@@ -4,6 +4,7 @@
 import re
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 import synthetic
@@ -39,7 +40,7 @@ def finish(phase: Phase) -> None:
     phase.seal()
 
 
-def test_time_step_without_damping_is_that_of_the_lattice():
+def test_time_step_without_damping_is_that_of_the_lattice() -> None:
     """2 sqrt(m / (6 k_n + 3 k_s)), of which auto takes 0.9; and never more than dt_max."""
     asked = replace(request(), settings={"hn": "0", "hs": "0", "dt_max": "1e-4"})
     mass = 26.5 * 3.141592653589793 * 0.002**2
@@ -49,7 +50,7 @@ def test_time_step_without_damping_is_that_of_the_lattice():
     assert time_step(replace(asked, dt="5e-7")) == 5e-7
 
 
-def test_what_is_not_as_usual_is_told(tmp_path):
+def test_what_is_not_as_usual_is_told(tmp_path: Path) -> None:
     head, *settings = Forecast(tmp_path, request()).head.split("\n")
     assert head.startswith("TypeA_10x5_4-8_1-circle_350: 350 grains") and not settings
     asked = replace(request(), law="incremental", dt="1e-7", stiffness=2.0, settings={"phi": "30"})
@@ -57,7 +58,7 @@ def test_what_is_not_as_usual_is_told(tmp_path):
     assert Forecast(tmp_path, asked).head.split("\n")[1:] == told
 
 
-def test_each_run_is_told_under_its_own_settings(tmp_path):
+def test_each_run_is_told_under_its_own_settings(tmp_path: Path) -> None:
     """Runs of a campaign take turns."""
     asked = [replace(request(), seed=seed, law=law) for seed in (1, 2) for law in ("direct", "incremental")]
     runs = [Run(tmp_path / f"{one.law}_{one.seed}", one, f"{one.law}_{one.seed}") for one in asked]
@@ -67,7 +68,7 @@ def test_each_run_is_told_under_its_own_settings(tmp_path):
     assert [line.split(":")[0] for line in direct.split("\n")][1:3] == ["direct_1", "direct_2"]
 
 
-def test_time_goes_with_grains_and_jobs(tmp_path):
+def test_time_goes_with_grains_and_jobs(tmp_path: Path) -> None:
     small, large = Forecast(tmp_path, request()), Forecast(tmp_path, request("TypeD_30x10_2-4_1-circle_9000"))
     one, two = small.seconds_with(1), small.seconds_with(2)  # to more digits than are printed
     assert two < one < 2 * two < large.seconds_with(2), "nothing runs beside the packing"
@@ -75,14 +76,14 @@ def test_time_goes_with_grains_and_jobs(tmp_path):
     assert seconds(total([small] * 8, 2)) == pytest.approx(4 * one, rel=0.05), "but that of another specimen"
 
 
-def test_what_runs_at_a_time_is_told_with_the_time(tmp_path):
+def test_what_runs_at_a_time_is_told_with_the_time(tmp_path: Path) -> None:
     """Two tests at most of one with two stresses; the lines of phases are one after the other, and none is of the report."""
     told = {jobs: total([Forecast(tmp_path, request())], jobs) for jobs in (1, 2, 8)}
     assert "s one phase after the other, without the report; " in told[1]
     assert all("s with 2 phases at a time, without the report; " in told[jobs] for jobs in (2, 8))
 
 
-def test_memory_goes_with_discs_ranks_and_tests_at_a_time(tmp_path):
+def test_memory_goes_with_discs_ranks_and_tests_at_a_time(tmp_path: Path) -> None:
     """While they were sheared, with frames, two ranks of a million discs had 1305 MB each, one of 9000 discs 72 MB."""
     large, middle, small = (
         replace(request(f"TypeD_100x30_2-4_1-circle_{count}"), stresses=(200.0,)) for count in (1_000_000, 9000, 350)
@@ -94,14 +95,14 @@ def test_memory_goes_with_discs_ranks_and_tests_at_a_time(tmp_path):
     assert memory_of_all([one, Forecast(tmp_path, small), one], 2) == 2 * one.memory
 
 
-def test_ranks_share_the_grains(tmp_path):
+def test_ranks_share_the_grains(tmp_path: Path) -> None:
     """Four ranks take a quarter of the time, but for the frames, which one of them writes."""
     asked = replace(request("TypeD_30x10_2-4_1-circle_9000"), settings={"frames": "1"})
     assert Forecast(tmp_path, asked).seconds == pytest.approx(4 * Forecast(tmp_path, asked, 4).seconds, rel=0.01)
 
 
 @pytest.mark.parametrize("ranks, loop", [(1, 35), (2, 17.5)])
-def test_the_speed_of_the_packing_that_is_done_here(tmp_path, ranks, loop):
+def test_the_speed_of_the_packing_that_is_done_here(tmp_path: Path, ranks: int, loop: float) -> None:
     """A microsecond of a core for a disc and step: 22 times as slow as usual, and so is shear, whatever the ranks of either. What
     is done takes no more time."""
     pack = packing(tmp_path, request())
@@ -117,7 +118,7 @@ def test_the_speed_of_the_packing_that_is_done_here(tmp_path, ranks, loop):
     assert total([Forecast(tmp_path, request())], 2).startswith("under 1 s ")
 
 
-def test_steps_of_packing_are_those_that_were_measured(tmp_path):
+def test_steps_of_packing_are_those_that_were_measured(tmp_path: Path) -> None:
     """Within the factor of 2 that is told, for all models of the paper, and in a box four times as high as any of theirs."""
     table = (Path(__file__).parents[1] / "validation" / "packing" / "measured" / "now.md").read_text(encoding="utf-8")
     measured = {name: int(steps.replace(",", "")) for name, steps in re.findall(r"\| (Type\S+) \| ([\d,]+)", table)}
@@ -138,7 +139,9 @@ def test_steps_of_packing_are_those_that_were_measured(tmp_path):
         ({"width": "10", "half_height": "5", "dmin": ".4", "dmax": ".8"}, 800_000),
     ],
 )
-def test_steps_of_packing_where_the_time_step_is_not_as_usual(tmp_path, settings, steps):
+def test_steps_of_packing_where_the_time_step_is_not_as_usual(
+    tmp_path: Path, settings: dict[str, Any], steps: int
+) -> None:
     """As the engine took them, within the factor of 2 that is told."""
     of_model = {name: value for name, value in settings.items() if not name.startswith("k")}
     asked = replace(request(), model=find_model(request().model.name, of_model), settings=settings)
@@ -154,13 +157,13 @@ def test_steps_of_packing_where_the_time_step_is_not_as_usual(tmp_path, settings
         ("TypeB_15x5_2-4_1-circle_2250", {}, 80.4),
     ],
 )
-def test_disk_is_what_dumps_took(tmp_path, name, settings, megabytes):
+def test_disk_is_what_dumps_took(tmp_path: Path, name: str, settings: dict[str, Any], megabytes: float) -> None:
     """Of one test, as it was written by the engine; in the second there are six times as many discs of walls as grains."""
     asked = replace(request(name), stresses=(100.0,), settings=settings)
     assert Forecast(tmp_path, asked).bytes == pytest.approx(1e6 * megabytes, rel=0.15)
 
 
-def test_disk_is_needed_for_what_is_left(tmp_path):
+def test_disk_is_needed_for_what_is_left(tmp_path: Path) -> None:
     """One stress is done, the other half: of its 800 rows there is a restart file of row 400. When that is stopped, its frames are
     read in full."""
     whole = Forecast(tmp_path, request())
@@ -177,7 +180,7 @@ def test_disk_is_needed_for_what_is_left(tmp_path):
     assert Forecast(tmp_path, replace(request(), host="liggghts")).bytes == 0, "it writes no frames"
 
 
-def test_frames_that_are_asked_for(tmp_path):
+def test_frames_that_are_asked_for(tmp_path: Path) -> None:
     """Of the disk and the time that frames take, 21 of 101; the interval of frames is a whole number of rows."""
     few, usual = (Forecast(tmp_path, replace(request(), settings=s)) for s in ({"frames": "20"}, {}))
     assert few.bytes == pytest.approx(usual.bytes * 21 / 101, rel=1e-5) and few.seconds < usual.seconds

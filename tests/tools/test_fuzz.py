@@ -10,6 +10,7 @@ import math
 import os
 import shlex
 import tempfile
+from collections.abc import Callable
 from datetime import timedelta
 from pathlib import Path
 
@@ -53,7 +54,7 @@ def altered(draw: st.DrawFn, text: bytes) -> bytes:
     return text
 
 
-def fuzz(text: bytes):
+def fuzz(text: bytes) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Calls a test with alterations of a text."""
     return lambda test: settings(
         max_examples=EXAMPLES, derandomize="FUZZ_EXAMPLES" not in os.environ, deadline=timedelta(seconds=20), database=None,
@@ -67,11 +68,11 @@ def written(path: Path, data: bytes) -> Path:
 
 
 @pytest.fixture(name="folder", scope="module")
-def _folder(tmp_path_factory) -> Path:
+def _folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("fuzz")
 
 
-def made(write) -> bytes:
+def made(write: Callable[[Path], Path]) -> bytes:
     """The text of the file that `write` makes in a folder."""
     with tempfile.TemporaryDirectory() as name:
         return write(Path(name)).read_bytes()
@@ -82,7 +83,7 @@ def shear_table(folder: Path) -> Path:
     return folder / "shear.dat"
 
 
-def frames(name: str):
+def frames(name: str) -> Callable[[Path], Path]:
     def write(folder: Path) -> Path:
         synthetic.write_frames(folder, [0, 5000], 8)
         few = []
@@ -107,7 +108,7 @@ def as_lammps_reads(data: bytes) -> dict[str, str]:
 
 
 @fuzz(MODEL.read_bytes() + b"variable loose index 2\n")
-def test_model(folder, data):
+def test_model(folder: Path, data: bytes) -> None:
     path = written(folder / "own.in", data)
     try:
         model = read_model(path)
@@ -121,7 +122,7 @@ def test_model(folder, data):
 
 
 @fuzz(b"# a bean: x y r\n 0.0   0.0   1.0\n 0.9   0.25  0.8\n-0.9   0.2   0.75\n 1.55  0.8   0.5\n-1.5   0.75  0.55\n")
-def test_template(folder, data):
+def test_template(folder: Path, data: bytes) -> None:
     written(folder / "grain.txt", data)
     text = MODEL.read_text(encoding="utf-8").replace("index single", 'index "file grain.txt"')
     path = written(folder / "clumps.in", text.encode())
@@ -135,7 +136,7 @@ def test_template(folder, data):
 
 
 @fuzz(b"phi=30")
-def test_setting(data):
+def test_setting(data: bytes) -> None:
     try:
         known = read_settings([data.decode(errors="surrogateescape")], OWN_OPTION)
     except InputError as error:
@@ -147,7 +148,7 @@ def test_setting(data):
 
 
 @fuzz(PARAMETERS.read_bytes())
-def test_parameters(folder, data):
+def test_parameters(folder: Path, data: bytes) -> None:
     try:
         assert all(p.words or p.low < math.inf for p in parameters(written(folder / "parameters.in", data)).values())
     except ShearboxError as error:
@@ -159,7 +160,7 @@ RECORD = {"identity": IDENTITY, "stresses": [100.0, 200], "model_file": str(MODE
 
 
 @fuzz(json.dumps(RECORD, indent=2).encode())
-def test_record(folder, data):
+def test_record(folder: Path, data: bytes) -> None:
     written(folder / "run.json", data)
     try:
         read_record(folder)
@@ -172,13 +173,13 @@ def test_record(folder, data):
 
 
 @fuzz(b'{"pack": 3.25, "shear 100 kPa": 17}')
-def test_timings(folder, data):
+def test_timings(folder: Path, data: bytes) -> None:
     written(folder / "timings.json", data)
     assert all(0 <= seconds < math.inf for seconds in read_timings(folder).values())
 
 
 @fuzz(b"grains,height_m,solid_fraction,steps\n350,0.0987,0.835,123000\n")
-def test_row(folder, data):
+def test_row(folder: Path, data: bytes) -> None:
     try:
         row = read_row(written(folder / "packed.csv", data))
     except ShearboxError as error:
@@ -189,9 +190,10 @@ def test_row(folder, data):
 
 
 @fuzz(made(shear_table))
-def test_shear(folder, data):
+def test_shear(folder: Path, data: bytes) -> None:
     path = written(folder / "shear.dat", data)
-    assert last_value(path, "displacement_mm") is None or math.isfinite(last_value(path, "displacement_mm"))
+    last = last_value(path, "displacement_mm")
+    assert last is None or math.isfinite(last)
     try:
         table = read_shear(path)
     except ShearboxError as error:
@@ -203,9 +205,9 @@ def test_shear(folder, data):
 
 
 @pytest.mark.parametrize("name, columns", [("grains", GRAINS), ("discs", DISCS), ("contacts", CONTACTS)])
-def test_dump(folder, name, columns):
+def test_dump(folder: Path, name: str, columns: tuple[str, ...]) -> None:
     @fuzz(made(frames(f"{name}.dump")))
-    def look(data):
+    def look(data: bytes) -> None:
         path = written(folder / f"{name}.dump", data)
         try:
             dump = Dump(path, columns)
@@ -233,7 +235,7 @@ DISCS_DUMP = made(discs_with_names_beside)
 
 
 @fuzz(f"{synthetic.DISCS}\n".encode())
-def test_names_of_columns(folder, data):
+def test_names_of_columns(folder: Path, data: bytes) -> None:
     written(folder / "few.columns", data)
     written(folder / "few.dump", DISCS_DUMP)
     try:
@@ -252,7 +254,7 @@ Total wall time: 0:00:01
 
 
 @fuzz(LOG)
-def test_log(folder, data):
+def test_log(folder: Path, data: bytes) -> None:
     log = read_log(written(folder / "shear.log", data))
     assert 0 <= log.seconds < math.inf and log.steps >= 0
     assert all(0 <= seconds < math.inf for seconds in log.parts.values()) and log.greatest_parts

@@ -11,7 +11,7 @@ import signal
 import struct
 import subprocess
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -454,7 +454,7 @@ HOLD = "import sys, time; from pathlib import Path; from shearbox_tools.lock imp
 
 
 @pytest.fixture(name="holder")
-def _holder(folder: Path):
+def _holder(folder: Path) -> Iterator[subprocess.Popen[bytes]]:
     code = f"{HOLD}with locked(Path({str(folder)!r})): print('held', flush=True); time.sleep(60)"
     tools = Path(__file__).resolve().parents[2] / "tools"
     with subprocess.Popen(

@@ -3,6 +3,7 @@
 
 import json
 import subprocess
+from pathlib import Path
 
 import pytest
 from command import MODEL, SHEARBOX, UNDRAWN, command, shearbox
@@ -17,7 +18,7 @@ from shearbox_tools.request import OWN_OPTION, Request, recorded
 from shearbox_tools.table import print_parameters
 
 
-def test_all_variables_of_the_decks_have_a_range():
+def test_all_variables_of_the_decks_have_a_range() -> None:
     """But for what follows from others; and their own values are within."""
     known = parameters()
     follows = {name for name in read_variables(PARAMETERS) if name not in known}
@@ -28,7 +29,7 @@ def test_all_variables_of_the_decks_have_a_range():
         check(Request(model, (100.0,)))
 
 
-def test_the_list_says_unit_and_range(capsys):
+def test_the_list_says_unit_and_range(capsys: pytest.CaptureFixture[str]) -> None:
     print_parameters()
     rows = {line.split()[0]: line for line in capsys.readouterr().out.splitlines() if line.strip()}
     assert set(parameters()) <= set(rows)
@@ -36,7 +37,9 @@ def test_the_list_says_unit_and_range(capsys):
     assert "--dt" in rows["dt"]
 
 
-def test_all_that_the_list_says_can_be_read_on_a_terminal_of_80_columns(capsys, monkeypatch):
+def test_all_that_the_list_says_can_be_read_on_a_terminal_of_80_columns(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr("shearbox_tools.table._console", lambda: Console(width=80))
     print_parameters()
     said = capsys.readouterr().out
@@ -47,12 +50,12 @@ def test_all_that_the_list_says_can_be_read_on_a_terminal_of_80_columns(capsys, 
     assert [word for word in words if word not in said] == []
 
 
-def test_variables_of_the_same_kind_have_texts_of_their_own():
+def test_variables_of_the_same_kind_have_texts_of_their_own() -> None:
     meanings = [p.meaning for p in parameters().values()]
     assert len(set(meanings)) == len(meanings)
 
 
-def test_the_same_for_scripts(capsys):
+def test_the_same_for_scripts(capsys: pytest.CaptureFixture[str]) -> None:
     print_parameters(as_json=True)
     told = {one["name"]: one for one in json.loads(capsys.readouterr().out)}
     assert set(told) == set(parameters())
@@ -94,13 +97,13 @@ def test_the_same_for_scripts(capsys):
         ("dt=1e-7", "the option for this is --dt"),
     ],
 )
-def test_a_setting_that_cannot_be_is_refused(setting, message):
+def test_a_setting_that_cannot_be_is_refused(setting: str, message: str) -> None:
     with pytest.raises(InputError) as error:
         read_settings([setting], OWN_OPTION)
     assert message in str(error.value)
 
 
-def test_a_setting_twice_and_all_at_once():
+def test_a_setting_twice_and_all_at_once() -> None:
     with pytest.raises(InputError) as error:
         read_settings(["phi=30", "phi=31", "kn=1"], OWN_OPTION)
     assert "phi is set twice" in str(error.value) and "--set kn 1: 1e3 to 1e12" in str(error.value)
@@ -112,7 +115,7 @@ def settings(*texts: str) -> Request:
     return Request(find_model(MODEL, of_model), (100.0,), settings=known)
 
 
-def test_settings_reach_the_decks(tmp_path):
+def test_settings_reach_the_decks(tmp_path: Path) -> None:
     variables = packing(tmp_path, settings("phi=30.0", "kn=5e7", "width=0.11")).variables
     assert {name: variables[name] for name in ("phi", "kn", "width")} == {
         "phi": "30",
@@ -130,7 +133,7 @@ def test_settings_reach_the_decks(tmp_path):
         ("width=5", "ngrains 350: about"),
     ],
 )
-def test_grains_that_do_not_fill_the_box_are_refused(setting, message):
+def test_grains_that_do_not_fill_the_box_are_refused(setting: str, message: str) -> None:
     """n(d) ~ d^-3 from 4 to 8 mm has the mean square 2 ln 2 / (1/16 - 1/64) = 29.6 mm^2, so a grain in a width of 100 mm,
     with a solid fraction of 0.82, adds 0.283 mm of height: 212 are 1.2 times, 424 2.4 times 50 mm high."""
     with pytest.raises(InputError) as error:
@@ -138,7 +141,7 @@ def test_grains_that_do_not_fill_the_box_are_refused(setting, message):
     assert message in str(error.value)
 
 
-def test_of_too_many_grains_in_a_name_their_number_is_told_and_nothing_that_follows_from_it():
+def test_of_too_many_grains_in_a_name_their_number_is_told_and_nothing_that_follows_from_it() -> None:
     """The height of the column that they would be packed in is no variable that the user has written."""
     with pytest.raises(InputError) as error:
         check(Request(find_model("TypeA_10x5_4-8_1-circle_35000"), (100.0,)))
@@ -156,7 +159,7 @@ def test_of_too_many_grains_in_a_name_their_number_is_told_and_nothing_that_foll
         ("variable loose index 0.5", "loose 0.5: 1 to 20 is expected"),
     ],
 )
-def test_a_model_has_no_variables_of_no_effect(tmp_path, line, message):
+def test_a_model_has_no_variables_of_no_effect(tmp_path: Path, line: str, message: str) -> None:
     """The decks read parameters.in first, so its values would count."""
     path = tmp_path / "own.in"
     path.write_text((INPUT / "models" / f"{MODEL}.in").read_text(encoding="utf-8") + line + "\n", encoding="utf-8")
@@ -164,7 +167,7 @@ def test_a_model_has_no_variables_of_no_effect(tmp_path, line, message):
         check(Request(find_model(str(path)), (100.0,)))
 
 
-def test_a_folder_goes_on_as_it_was_asked_for(tmp_path):
+def test_a_folder_goes_on_as_it_was_asked_for(tmp_path: Path) -> None:
     """Though the model's file and a template have been changed since; --set is part of what a run is."""
     folder, path = tmp_path / "results", tmp_path / "own.in"
     text = (
@@ -194,7 +197,7 @@ def test_a_folder_goes_on_as_it_was_asked_for(tmp_path):
     assert other.returncode == 2 and "speed_mm_s: 200.0 there, 3.0 asked for" in other.stderr
 
 
-def test_a_dry_run_says_what_and_leaves_nothing(tmp_path):
+def test_a_dry_run_says_what_and_leaves_nothing(tmp_path: Path) -> None:
     folder = tmp_path / "results"
     said = shearbox(folder, "--dry-run", "--set", "phi=30", "--stress", "100", "--stress", "200")
     assert said.returncode == 0, said.stderr
@@ -203,13 +206,15 @@ def test_a_dry_run_says_what_and_leaves_nothing(tmp_path):
     assert not folder.exists()
 
 
-def test_the_folder_is_needed(tmp_path):
+def test_the_folder_is_needed(tmp_path: Path) -> None:
     words = [word for word in command(tmp_path) if word not in ("--out", str(tmp_path))]
     refused = subprocess.run(words, capture_output=True, text=True, timeout=60)
     assert refused.returncode == 2 and "--out is needed" in refused.stderr
 
 
-def test_a_bad_file_among_the_models_costs_no_other(tmp_path, monkeypatch, capsys):
+def test_a_bad_file_among_the_models_costs_no_other(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     from shearbox_tools import models, table
 
     for name in (f"{MODEL}.in", "TypeB_15x5_4-8_1-circle_550.in"):
@@ -233,7 +238,9 @@ def test_a_bad_file_among_the_models_costs_no_other(tmp_path, monkeypatch, capsy
         ("[1e3 to 1e12]", "[1e3 to many]", "parameters.in: kn 1.0e8: 1e3 to many is expected"),
     ],
 )
-def test_what_is_wrong_in_the_deck_is_named(tmp_path, monkeypatch, old, new, message):
+def test_what_is_wrong_in_the_deck_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, old: str, new: str, message: str
+) -> None:
     path = tmp_path / "parameters.in"
     path.write_text(PARAMETERS.read_text(encoding="utf-8").replace(old, new), encoding="utf-8")
     monkeypatch.setattr("shearbox_tools.checks.PARAMETERS", path)
@@ -243,7 +250,7 @@ def test_what_is_wrong_in_the_deck_is_named(tmp_path, monkeypatch, old, new, mes
     assert message in str(error.value)
 
 
-def test_what_acts_together_may_be_set_together():
+def test_what_acts_together_may_be_set_together() -> None:
     """And a value that is the default's may be written down."""
     both = ["phi_wall=30", "ks_wall=1e7"]
     assert read_settings(both, OWN_OPTION) == {"phi_wall": "30", "ks_wall": "10000000"}

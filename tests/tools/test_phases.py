@@ -35,7 +35,9 @@ def request(name: str = "TypeA_10x5_4-8_1-circle_350") -> Request:
         (TABLE, GOODBYE, False, False),
     ],
 )
-def test_done_is_a_whole_table_and_an_engine_that_said_goodbye(tmp_path, table, log, restart, done):
+def test_done_is_a_whole_table_and_an_engine_that_said_goodbye(
+    tmp_path: Path, table: str | None, log: str | None, restart: bool, done: bool
+) -> None:
     phase = packing(tmp_path, request())
     phase.folder.mkdir()
     for path, text in ((phase.folder / "packed.csv", table), (phase.log, log)):
@@ -46,9 +48,14 @@ def test_done_is_a_whole_table_and_an_engine_that_said_goodbye(tmp_path, table, 
     assert phase.done is done
 
 
-def test_a_table_is_read_again_only_when_it_has_changed(tmp_path, monkeypatch):
+def test_a_table_is_read_again_only_when_it_has_changed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     read: list[Path] = []
-    monkeypatch.setattr("shearbox_tools.phases.read_row", lambda path: read.append(path) or read_row(path))
+
+    def note(path: Path) -> dict[str, float]:
+        read.append(path)
+        return read_row(path)
+
+    monkeypatch.setattr("shearbox_tools.phases.read_row", note)
     phase = packing(tmp_path, request())
     phase.folder.mkdir()
     table = phase.folder / "packed.csv"
@@ -63,7 +70,7 @@ def test_a_table_is_read_again_only_when_it_has_changed(tmp_path, monkeypatch):
     assert phase.done and len(read) == 2
 
 
-def test_variables_of_the_decks(tmp_path):
+def test_variables_of_the_decks(tmp_path: Path) -> None:
     consolidate, shear = shearing(tmp_path, request(), 100)
     common = {
         "model": "TypeA_10x5_4-8_1-circle_350",
@@ -92,7 +99,7 @@ def test_variables_of_the_decks(tmp_path):
         ("", 0),
     ],
 )
-def test_displacement_of_the_last_whole_line(tmp_path: Path, text, reached):
+def test_displacement_of_the_last_whole_line(tmp_path: Path, text: str, reached: float) -> None:
     shear = shearing(tmp_path, request(), 100)[1]
     shear.folder.mkdir()
     assert shear.displacement() == 0
@@ -111,7 +118,7 @@ def test_displacement_of_the_last_whole_line(tmp_path: Path, text, reached):
         ("my models/a b", "my models", None),
     ],
 )
-def test_where_the_decks_find_a_model(tmp_path, model, results, seen):
+def test_where_the_decks_find_a_model(tmp_path: Path, model: str, results: str, seen: str | None) -> None:
     """LAMMPS includes nothing with a blank in its name."""
     path = tmp_path / model / "sand.in"
     path.parent.mkdir(parents=True)
@@ -125,14 +132,14 @@ def test_where_the_decks_find_a_model(tmp_path, model, results, seen):
         assert (variables["model"], variables["models"]) == ("sand", seen.format(tmp=tmp_path))
 
 
-def test_a_model_whose_own_name_has_a_blank_is_refused(tmp_path):
+def test_a_model_whose_own_name_has_a_blank_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "my sand.in"
     path.write_text((INPUT / "models" / "TypeA_10x5_4-8_1-circle_350.in").read_text(encoding="utf-8"), encoding="utf-8")
     with pytest.raises(InputError, match="my sand.in: LAMMPS cannot include a file with a blank in its name"):
         packing(tmp_path / "results", Request(read_model(path), (100.0,)))
 
 
-def test_a_half_travels_as_far_as_its_flanges_are_long():
+def test_a_half_travels_as_far_as_its_flanges_are_long() -> None:
     """The decks say how long, or the command line."""
     check(request())
     with pytest.raises(InputError, match="--travel 8: 0.1 to 5 mm, 0.05 of the box's width"):

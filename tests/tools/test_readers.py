@@ -35,14 +35,14 @@ def edit(path: Path, line: int, text: str) -> None:
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def test_all_rows(shear):
+def test_all_rows(shear: Path) -> None:
     table = read_shear(shear)
     expected = synthetic.curves(100, 8, rows=20)
     for name, column in expected.items():
         assert table[name] == pytest.approx(column, rel=1e-8), name
 
 
-def test_the_last_of_repeated_rows_counts(shear):
+def test_the_last_of_repeated_rows_counts(shear: Path) -> None:
     again = synthetic.curves(100, 8, rows=20)
     again["tau_kPa"] = again["tau_kPa"] + 1
     synthetic.write_shear(shear, again, slice(15, 18), "a")
@@ -50,7 +50,7 @@ def test_the_last_of_repeated_rows_counts(shear):
     assert tau == pytest.approx([0] * 15 + [1] * 3 + [0] * 2, abs=1e-6)
 
 
-def test_a_line_without_end_is_left_out(shear):
+def test_a_line_without_end_is_left_out(shear: Path) -> None:
     with shear.open("a", encoding="utf-8") as stream:
         stream.write("105000 8.2 4")
     assert len(read_shear(shear)["step"]) == 20
@@ -65,7 +65,7 @@ def test_a_line_without_end_is_left_out(shear):
         ("\0\0\0\0", "line 7: 11 values are expected"),
     ],
 )
-def test_a_damaged_row_is_named(shear, text, message):
+def test_a_damaged_row_is_named(shear: Path, text: str, message: str) -> None:
     edit(shear, 7, text)
     with pytest.raises(ShearboxError) as error:
         read_shear(shear)
@@ -73,13 +73,13 @@ def test_a_damaged_row_is_named(shear, text, message):
 
 
 @pytest.mark.parametrize("lines", [0, 1])
-def test_no_rows(shear, lines):
+def test_no_rows(shear: Path, lines: int) -> None:
     shear.write_text("".join(shear.read_text(encoding="utf-8").splitlines(keepends=True)[:lines]), encoding="utf-8")
     with pytest.raises(ShearboxError, match="no rows of data"):
         read_shear(shear)
 
 
-def test_columns_in_another_order_and_one_more(shear):
+def test_columns_in_another_order_and_one_more(shear: Path) -> None:
     expected = synthetic.curves(100, 8, rows=20)
     given = {"pressure_kPa": np.arange(20.0)} | dict(reversed(expected.items()))
     synthetic.write_shear(shear, given)
@@ -89,7 +89,7 @@ def test_columns_in_another_order_and_one_more(shear):
     assert last_value(shear, "displacement_mm") == pytest.approx(expected["displacement_mm"][-1])
 
 
-def test_columns_that_are_not_there_are_named(shear):
+def test_columns_that_are_not_there_are_named(shear: Path) -> None:
     columns = synthetic.curves(100, 8, rows=20)
     del columns["tau_kPa"], columns["work_J"]
     synthetic.write_shear(shear, columns)
@@ -106,27 +106,27 @@ def test_columns_that_are_not_there_are_named(shear):
         (9, "# " + " ".join(reversed(synthetic.curves(100, 8))), "line 9: the header is no longer 'step disp"),
     ],
 )
-def test_a_header_that_is_not_that_of_the_rows_is_named(shear, line, text, message):
+def test_a_header_that_is_not_that_of_the_rows_is_named(shear: Path, line: int, text: str, message: str) -> None:
     edit(shear, line, text)
     with pytest.raises(ShearboxError) as error:
         read_shear(shear)
     assert str(shear) in str(error.value) and message in str(error.value)
 
 
-def test_a_continued_table_has_its_header_twice(shear):
+def test_a_continued_table_has_its_header_twice(shear: Path) -> None:
     again = shear.read_text(encoding="utf-8")
     shear.write_text(again + again, encoding="utf-8")
     assert len(read_shear(shear)["step"]) == 20
 
 
-def test_no_file(tmp_path):
+def test_no_file(tmp_path: Path) -> None:
     with pytest.raises(ShearboxError, match="No such file"):
         read_shear(tmp_path / "none.dat")
     with pytest.raises(ShearboxError, match="No such file"):
         Dump(tmp_path / "none.dump", GRAINS)
 
 
-def test_a_row_of_csv(tmp_path):
+def test_a_row_of_csv(tmp_path: Path) -> None:
     path = tmp_path / "packed.csv"
     row = (
         {name: k + 1.0 for k, name in enumerate(BED)}
@@ -147,7 +147,7 @@ def test_a_row_of_csv(tmp_path):
         (",".join(BED[1:]) + "\n" + ",".join("1" * (len(BED) - 1)) + "\n", "no column grains"),
     ],
 )
-def test_a_damaged_csv_is_named(tmp_path, text, message):
+def test_a_damaged_csv_is_named(tmp_path: Path, text: str, message: str) -> None:
     path = tmp_path / "packed.csv"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(ShearboxError, match=message):
@@ -155,7 +155,7 @@ def test_a_damaged_csv_is_named(tmp_path, text, message):
 
 
 @pytest.mark.parametrize("name, columns", [("grains", GRAINS), ("discs", DISCS), ("contacts", CONTACTS)])
-def test_frames(frames, name, columns):
+def test_frames(frames: Path, name: str, columns: tuple[str, ...]) -> None:
     dump = Dump(frames / f"{name}.dump", columns)
     assert dump.steps == [0, 5000, 10000]
     assert dump.nearest(6000) == 5000
@@ -171,7 +171,7 @@ def swapped(row: str, first: int, second: int) -> str:
 
 
 @pytest.mark.parametrize("name, columns", [("grains", GRAINS), ("discs", DISCS), ("contacts", CONTACTS)])
-def test_columns_that_the_dump_has_in_another_order(frames, name, columns):
+def test_columns_that_the_dump_has_in_another_order(frames: Path, name: str, columns: tuple[str, ...]) -> None:
     """As after a swap in the deck's dump command."""
     path = frames / f"{name}.dump"
     before = Dump(path, columns).frame(5000)
@@ -187,7 +187,7 @@ def test_columns_that_the_dump_has_in_another_order(frames, name, columns):
     assert all(np.array_equal(before[column], after[column]) for column in columns)
 
 
-def test_columns_that_the_compute_has_in_another_order(frames):
+def test_columns_that_the_compute_has_in_another_order(frames: Path) -> None:
     """As after a swap of the fields that the deck asks for, in dumps of before: the file beside the dump says so."""
     synthetic.with_names_beside(frames)
     before = Dump(frames / "contacts.dump", CONTACTS).frame(0)
@@ -198,7 +198,7 @@ def test_columns_that_the_compute_has_in_another_order(frames):
         assert np.array_equal(before[one], after[other]) and np.array_equal(before[other], after[one])
 
 
-def test_dumps_of_an_earlier_version(frames):
+def test_dumps_of_an_earlier_version(frames: Path) -> None:
     named = {name: Dump(frames / f"{name}.dump", columns).frame(5000) for name, columns in EVERY.items()}
     synthetic.with_names_beside(frames)
     for name, columns in EVERY.items():
@@ -206,7 +206,7 @@ def test_dumps_of_an_earlier_version(frames):
         assert all(np.array_equal(before[column], named[name][column]) for column in columns)
 
 
-def test_columns_without_names_are_refused(frames):
+def test_columns_without_names_are_refused(frames: Path) -> None:
     """As in a folder of a version before names."""
     synthetic.with_names_beside(frames)
     (frames / "discs.columns").unlink()
@@ -218,7 +218,7 @@ def test_columns_without_names_are_refused(frames):
         Dump(frames / "grains.dump", GRAINS).frame(0)
 
 
-def test_one_column_more(frames):
+def test_one_column_more(frames: Path) -> None:
     path = frames / "grains.dump"
     before = Dump(path, GRAINS).frame(5000)
     lines = path.read_text(encoding="utf-8").splitlines()
@@ -228,7 +228,7 @@ def test_one_column_more(frames):
     assert all(np.array_equal(before[column], after[column]) for column in GRAINS)
 
 
-def test_a_frame_without_rows(frames):
+def test_a_frame_without_rows(frames: Path) -> None:
     path = frames / "contacts.dump"
     lines = path.read_text(encoding="utf-8").splitlines()[:9]
     lines[3] = "0"
@@ -236,7 +236,7 @@ def test_a_frame_without_rows(frames):
     assert Dump(path, CONTACTS).frame(0)["fn"].shape == (0,)
 
 
-def test_a_last_frame_that_is_cut_off_is_left_out(frames):
+def test_a_last_frame_that_is_cut_off_is_left_out(frames: Path) -> None:
     path = frames / "grains.dump"
     whole = path.read_bytes()
     third = whole.rfind(b"ITEM: TIMESTEP")
@@ -245,7 +245,7 @@ def test_a_last_frame_that_is_cut_off_is_left_out(frames):
         assert Dump(path, GRAINS).steps == [0, 5000]
 
 
-def test_the_last_of_repeated_frames_counts(frames):
+def test_the_last_of_repeated_frames_counts(frames: Path) -> None:
     path = frames / "grains.dump"
     text = path.read_text(encoding="utf-8")
     path.write_text(text + text[text.rfind("ITEM: TIMESTEP") :].replace(" 0.00277 ", " 0.9 "), encoding="utf-8")
@@ -266,7 +266,7 @@ def test_the_last_of_repeated_frames_counts(frames):
         (12, "3 1 0.01 0.02 0 0 0 0 0.003 0 0 0 0 inf", "line 12: a value that is not finite"),
     ],
 )
-def test_a_damaged_dump_is_named(frames, line, text, message):
+def test_a_damaged_dump_is_named(frames: Path, line: int, text: str, message: str) -> None:
     edit(frames / "grains.dump", line, text)
     with pytest.raises(ShearboxError) as error:
         Dump(frames / "grains.dump", GRAINS).frame(0)
@@ -274,7 +274,7 @@ def test_a_damaged_dump_is_named(frames, line, text, message):
     assert str(frames / "grains.dump") in str(error.value)
 
 
-def test_a_frame_that_lacks_a_row_is_named(frames):
+def test_a_frame_that_lacks_a_row_is_named(frames: Path) -> None:
     path = frames / "grains.dump"
     lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
     rows = int(lines[3])
@@ -283,7 +283,7 @@ def test_a_frame_that_lacks_a_row_is_named(frames):
         Dump(path, GRAINS)
 
 
-def test_a_dump_without_a_whole_frame_is_named(frames):
+def test_a_dump_without_a_whole_frame_is_named(frames: Path) -> None:
     path = frames / "grains.dump"
     path.write_bytes(path.read_bytes()[:500])
     for use in (lambda: Dump(path, GRAINS).steps, lambda: Dump(path, GRAINS).nearest(0)):
@@ -303,7 +303,7 @@ def test_a_dump_without_a_whole_frame_is_named(frames):
         ("tau_kPa", "٣"),
     ],
 )
-def test_a_number_that_a_column_cannot_have(shear, column, value):
+def test_a_number_that_a_column_cannot_have(shear: Path, column: str, value: str) -> None:
     names, row = (line.split() for line in shear.read_text(encoding="utf-8").splitlines()[:2])
     row[names.index(column) - 1] = value
     edit(shear, 2, " ".join(row))
@@ -311,14 +311,14 @@ def test_a_number_that_a_column_cannot_have(shear, column, value):
         read_shear(shear)
 
 
-def test_an_empty_dump_is_named(frames):
+def test_an_empty_dump_is_named(frames: Path) -> None:
     (frames / "grains.dump").write_text("", encoding="utf-8")
     with pytest.raises(ShearboxError, match="grains.dump: the file is empty"):
         Dump(frames / "grains.dump", GRAINS)
 
 
 @pytest.mark.parametrize("first, count", [(0, 1), (7, 1), (7, 5)])
-def test_rows_that_are_cut_out_are_missed(shear, first, count):
+def test_rows_that_are_cut_out_are_missed(shear: Path, first: int, count: int) -> None:
     lines = shear.read_text(encoding="utf-8").splitlines(keepends=True)
     del lines[1 + first : 1 + first + count]
     shear.write_text("".join(lines), encoding="utf-8")
@@ -329,7 +329,7 @@ def test_rows_that_are_cut_out_are_missed(shear, first, count):
 
 @pytest.mark.parametrize("line", ["Loop time of 1.2.3 on 1 procs for 10 steps", "Loop time of nan on 1 procs for x steps",
                                   "Loop time of 1e9999 on 1 procs for 10 steps", "Pair | 1 | .. | 3 |"])  # fmt: skip
-def test_a_damaged_log_counts_for_nothing(tmp_path, line):
+def test_a_damaged_log_counts_for_nothing(tmp_path: Path, line: str) -> None:
     path = tmp_path / "shear.log"
     path.write_text(f"{line}\nLoop time of 2 on 1 procs for 10 steps\n", encoding="utf-8")
     assert (read_log(path).seconds, read_log(path).steps) == (2, 10)

@@ -43,7 +43,7 @@ def _folder(tmp_path: Path) -> Path:
     return tmp_path / "results"
 
 
-def test_all_stresses_from_nothing_to_the_report(folder, tmp_path):
+def test_all_stresses_from_nothing_to_the_report(folder: Path, tmp_path: Path) -> None:
     diary = tmp_path / "diary"
     done = shearbox(folder, program=SHEARBOX, FAKE_DIARY=str(diary), FAKE_SECONDS="1")
     assert done.returncode == 0, done.stderr
@@ -70,7 +70,7 @@ def test_all_stresses_from_nothing_to_the_report(folder, tmp_path):
     assert diary.stat().st_size == before, "nothing is left to do"
 
 
-def test_another_stress_may_follow(folder):
+def test_another_stress_may_follow(folder: Path) -> None:
     assert shearbox(folder, "--stress", "100").returncode == 0
     assert summary(folder)["phi_deg"] is None
     assert shearbox(folder, "--stress", "250").returncode == 0
@@ -79,7 +79,7 @@ def test_another_stress_may_follow(folder):
 
 
 @pytest.mark.parametrize("sign, status", [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)])
-def test_stopped_and_taken_up_again(folder, tmp_path, sign, status):
+def test_stopped_and_taken_up_again(folder: Path, tmp_path: Path, sign: signal.Signals, status: int) -> None:
     options = ("--stress", "100", "200", "300")
     engine = subprocess.Popen(
         command(folder, *options), env={**os.environ, "FAKE_SECONDS": "40"}, stdout=subprocess.PIPE,
@@ -106,7 +106,7 @@ def test_stopped_and_taken_up_again(folder, tmp_path, sign, status):
     assert rows(folder, 100) == rows(folder, 300) == 800
 
 
-def test_under_nohup_a_hang_up_stops_nothing(folder):
+def test_under_nohup_a_hang_up_stops_nothing(folder: Path) -> None:
     """Which is all that nohup does; other signals stop it as ever."""
     engine = subprocess.Popen(
         ["nohup", *command(folder, "--stress", "100")], env={**os.environ, "FAKE_SECONDS": "40"},
@@ -122,7 +122,7 @@ def test_under_nohup_a_hang_up_stops_nothing(folder):
     assert engine.returncode == 143
 
 
-def test_processes_that_read_runs_ignore_what_was_ignored_before_them():
+def test_processes_that_read_runs_ignore_what_was_ignored_before_them() -> None:
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
     try:
         with ProcessPoolExecutor(1, initializer=reading._end_at_once) as pool:
@@ -132,7 +132,7 @@ def test_processes_that_read_runs_ignore_what_was_ignored_before_them():
     assert heard == [signal.SIG_IGN, signal.SIG_DFL]
 
 
-def test_asked_to_end_it_goes_on_from_the_row_that_it_has_reached(folder, tmp_path):
+def test_asked_to_end_it_goes_on_from_the_row_that_it_has_reached(folder: Path, tmp_path: Path) -> None:
     """As a batch system asks before a job's limit; a stress that has not begun does not begin."""
     options = ("--stress", "100", "200", "300")
     engine = subprocess.Popen(
@@ -158,7 +158,7 @@ def test_asked_to_end_it_goes_on_from_the_row_that_it_has_reached(folder, tmp_pa
     assert summary(folder)["complete"]
 
 
-def test_asked_to_end_while_it_packs(folder, tmp_path):
+def test_asked_to_end_while_it_packs(folder: Path, tmp_path: Path) -> None:
     slow = tmp_path / "slow"
     slow.write_text("#!/bin/sh\nexec sleep 60\n", encoding="utf-8")
     slow.chmod(0o755)
@@ -171,7 +171,7 @@ def test_asked_to_end_while_it_packs(folder, tmp_path):
 
 
 @pytest.mark.parametrize("listens", [False, True])
-def test_ranks_are_asked_to_end_once_they_listen(folder, tmp_path, listens):
+def test_ranks_are_asked_to_end_once_they_listen(folder: Path, tmp_path: Path, listens: bool) -> None:
     """Before that an mpirun loses the signal, or waits for ever for ranks that it has ended; they have nothing to lose yet."""
     (tmp_path / "mpirun").write_text(
         "#!/bin/sh\nshift 2\n" + ('exec "$@"\n' if listens else "trap '' USR1\nexec sleep 60\n"), encoding="utf-8"
@@ -188,7 +188,7 @@ def test_ranks_are_asked_to_end_once_they_listen(folder, tmp_path, listens):
     assert (folder / "100" / "shear.restart.c").exists() == listens
 
 
-def test_what_has_not_heard_is_asked_again(tmp_path, monkeypatch):
+def test_what_has_not_heard_is_asked_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """An engine that hears the second signal only."""
     monkeypatch.setattr("shearbox_tools.campaign.SECONDS_TO_ASK_AGAIN", 0.5)
     deaf, begun = tmp_path / "deaf", tmp_path / "begun"
@@ -201,14 +201,19 @@ def test_what_has_not_heard_is_asked_again(tmp_path, monkeypatch):
     console = Console(quiet=True)
     with locked(one.folder) as lock:
         campaign = Campaign([one], Engine(deaf), make_display(console, Whole({}, {})), {one.folder: lock})
-        asking = threading.Thread(target=lambda: (wait_for(begun.exists), campaign.end()))
+
+        def ask() -> None:
+            wait_for(begun.exists)
+            campaign.end()
+
+        asking = threading.Thread(target=ask)
         asking.start()
         assert campaign.run(1) == [] and campaign.stopped
         asking.join()
 
 
 @pytest.mark.parametrize("deck", ["checkpoints.in", "shear.in"])
-def test_a_log_shows_where_a_deck_begins_to_listen(folder, deck):
+def test_a_log_shows_where_a_deck_begins_to_listen(folder: Path, deck: str) -> None:
     """LAMMPS's log has the lines of the decks, comments too."""
     phase = packing(folder, Request(find_model(MODEL), (100.0,)))
     phase.folder.mkdir(parents=True)
@@ -222,7 +227,7 @@ def test_a_log_shows_where_a_deck_begins_to_listen(folder, deck):
     assert phase.listens
 
 
-def test_a_failed_stress_does_not_cost_the_others(folder):
+def test_a_failed_stress_does_not_cost_the_others(folder: Path) -> None:
     failed = shearbox(folder, FAKE_FAIL="200")
     assert failed.returncode == 1
     assert "shear 200 kPa failed: ERROR: Lost atoms: original 350 current 349" in failed.stderr
@@ -236,7 +241,7 @@ def test_a_failed_stress_does_not_cost_the_others(folder):
     assert (folder / "200" / "shear.log.1").exists(), "the log of the failure is kept"
 
 
-def test_what_failed_is_said_although_the_report_fails_too(folder):
+def test_what_failed_is_said_although_the_report_fails_too(folder: Path) -> None:
     """And that the same command goes on is not said: it would fail in the same way."""
     assert shearbox(folder, "--stress", "100").returncode == 0
     (folder / "report.html.draft").mkdir()
@@ -246,7 +251,7 @@ def test_what_failed_is_said_although_the_report_fails_too(folder):
     assert "The other results are kept" in failed.stderr and "goes on" not in failed.stderr
 
 
-def test_a_table_that_is_gone_is_made_again(folder):
+def test_a_table_that_is_gone_is_made_again(folder: Path) -> None:
     """All else of the same run stays."""
     assert shearbox(folder, "--stress", "100", "200").returncode == 0
     kept = {path: path.read_bytes() for path in (folder / "200").iterdir()}
@@ -260,7 +265,7 @@ def test_a_table_that_is_gone_is_made_again(folder):
     assert {path: path.read_bytes() for path in (folder / "200").iterdir()} == kept
 
 
-def test_a_failed_packing_ends_the_run(folder):
+def test_a_failed_packing_ends_the_run(folder: Path) -> None:
     failed = shearbox(folder, FAKE_FAIL="packed")
     assert failed.returncode == 1
     assert "pack failed: ERROR: Lost atoms" in failed.stderr
@@ -268,7 +273,7 @@ def test_a_failed_packing_ends_the_run(folder):
 
 
 @pytest.mark.parametrize("seeds", [[], ["--seeds", "2"]])
-def test_a_run_that_failed_at_once_is_begun_anew(folder, seeds):
+def test_a_run_that_failed_at_once_is_begun_anew(folder: Path, seeds: list[str]) -> None:
     """Its time step, say, was refused by the engine: nobody wants to go on with it, nor with its stresses."""
     assert shearbox(folder, "--engine", "/bin/false", "--dt", "1e-5", "--stress", "200", *seeds).returncode == 1
     done = shearbox(folder, "--stress", "100", *seeds)
@@ -279,7 +284,7 @@ def test_a_run_that_failed_at_once_is_begun_anew(folder, seeds):
 
 
 @pytest.mark.parametrize("left", ["run.json", "packed/packed.restart.a"])
-def test_a_run_that_may_be_gone_on_with_is_not_begun_anew(folder, left):
+def test_a_run_that_may_be_gone_on_with_is_not_begun_anew(folder: Path, left: str) -> None:
     """One without a log may be yet to start, as in a job that waits; and a restart file is a result."""
     assert shearbox(folder, "--engine", "/bin/false", "--dt", "1e-5").returncode == 1
     if left == "run.json":
@@ -291,13 +296,13 @@ def test_a_run_that_may_be_gone_on_with_is_not_begun_anew(folder, left):
     assert ("It has no results: remove the folder" in refused.stderr) == (left == "run.json")
 
 
-def test_a_specimen_that_failed_and_is_not_asked_for_again_is_told(folder):
+def test_a_specimen_that_failed_and_is_not_asked_for_again_is_told(folder: Path) -> None:
     assert shearbox(folder, "--engine", "/bin/false", "--dt", "1e-5", "--seeds", "2").returncode == 1
     refused = shearbox(folder, "--stress", "100", "--seeds", "1")
     assert refused.returncode == 2 and f"{folder / 'seed_2'} holds another run" in refused.stderr
 
 
-def test_a_step_that_the_engine_refuses_has_the_words_of_the_tools(folder, tmp_path):
+def test_a_step_that_the_engine_refuses_has_the_words_of_the_tools(folder: Path, tmp_path: Path) -> None:
     engine = tmp_path / "engine"
     engine.write_text(
         "#!/bin/sh\necho \"ERROR: take 'dt auto', or 'dt any' to run nevertheless\"\nexit 1\n", encoding="utf-8"
@@ -307,7 +312,7 @@ def test_a_step_that_the_engine_refuses_has_the_words_of_the_tools(folder, tmp_p
     assert "With shearbox: a smaller --dt, or --dt auto\n  log: " in failed.stderr
 
 
-def test_an_engine_that_is_killed_is_named(folder, tmp_path):
+def test_an_engine_that_is_killed_is_named(folder: Path, tmp_path: Path) -> None:
     engine = tmp_path / "engine"
     engine.write_text("#!/bin/sh\nkill -9 $$\n", encoding="utf-8")
     engine.chmod(0o755)
@@ -316,7 +321,7 @@ def test_an_engine_that_is_killed_is_named(folder, tmp_path):
     assert "ended by signal 9" in failed.stderr and "The same command goes on" in failed.stderr
 
 
-def test_ranks_are_started_by_words_that_any_mpirun_knows(folder, tmp_path):
+def test_ranks_are_started_by_words_that_any_mpirun_knows(folder: Path, tmp_path: Path) -> None:
     """MPICH's and Intel's refuse the options of Open MPI's, as this one does."""
     (tmp_path / "mpirun").write_text('#!/bin/sh\n[ "$1 $2" = "-np 2" ] && shift 2 && exec "$@"\n', encoding="utf-8")
     (tmp_path / "mpirun").chmod(0o755)
@@ -324,13 +329,13 @@ def test_ranks_are_started_by_words_that_any_mpirun_knows(folder, tmp_path):
     assert done.returncode == 0, done.stderr
 
 
-def test_an_engine_that_writes_nothing_is_found_out(folder):
+def test_an_engine_that_writes_nothing_is_found_out(folder: Path) -> None:
     failed = shearbox(folder, "--engine", "/bin/true")
     assert failed.returncode == 1
     assert "ended without writing packed.csv" in failed.stderr
 
 
-def test_an_engine_that_cannot_be_started_is_named(folder, tmp_path):
+def test_an_engine_that_cannot_be_started_is_named(folder: Path, tmp_path: Path) -> None:
     engine = tmp_path / "engine"
     engine.write_text("neither a script nor a program", encoding="utf-8")
     engine.chmod(0o755)
@@ -340,7 +345,7 @@ def test_an_engine_that_cannot_be_started_is_named(folder, tmp_path):
     assert "Traceback" not in failed.stderr
 
 
-def test_two_runs_in_one_folder(folder):
+def test_two_runs_in_one_folder(folder: Path) -> None:
     first = subprocess.Popen(
         command(folder, "--stress", "100", program=SHEARBOX), env={**os.environ, "FAKE_SECONDS": "8"},
         stdout=subprocess.DEVNULL,
@@ -362,14 +367,16 @@ def test_two_runs_in_one_folder(folder):
         (["--speed", "7"], 7),
     ],
 )
-def test_accuracy_sets_the_speed_that_is_not_given(tmp_path, monkeypatch, options, speed):
+def test_accuracy_sets_the_speed_that_is_not_given(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, options: list[str], speed: float
+) -> None:
     given: list[dict] = []
     monkeypatch.setattr("shearbox_tools.run.run", lambda options, asked: given.extend(asked))
     assert cli.main(["run", MODEL, "--out", str(tmp_path), *options]) == 0
     assert given[0].get("speed", Request.speed) == speed
 
 
-def test_accuracy_and_stiffness_reach_the_decks(folder):
+def test_accuracy_and_stiffness_reach_the_decks(folder: Path) -> None:
     options = ("--stress", "100", "--stiffness", "0.5")
     assert shearbox(folder, "--accuracy", "fast", *options).returncode == 0
     assert (summary(folder)["speed_mm_s"], summary(folder)["stiffness"]) == (SPEEDS["fast"], 0.5)
@@ -428,7 +435,7 @@ REFUSED = [
 
 
 @pytest.mark.parametrize("options, message", REFUSED, ids=[" ".join(options) for options, _ in REFUSED])
-def test_bad_options_are_refused_before_anything_starts(folder, options, message):
+def test_bad_options_are_refused_before_anything_starts(folder: Path, options: list[str], message: str) -> None:
     refused = shearbox(folder, *options)
     assert refused.returncode == 2, refused.stdout
     assert message.replace("'", "") in refused.stderr.replace("'", "")  # argparse of Python 3.13 quotes less
@@ -437,7 +444,7 @@ def test_bad_options_are_refused_before_anything_starts(folder, options, message
     assert not folder.exists()
 
 
-def test_all_problems_are_named_at_once(folder):
+def test_all_problems_are_named_at_once(folder: Path) -> None:
     refused = shearbox(folder, "--stress", "-1", "--speed", "0", "--seed", "-3")
     assert all(option in refused.stderr for option in ("--stress", "--speed", "--seed"))
 
@@ -451,14 +458,14 @@ def test_all_problems_are_named_at_once(folder):
         ("TypeA_10x5_4-8_2-circle_350", "DISCS of a grain, 1 or 3"),
     ],
 )
-def test_an_unknown_model_gets_suggestions(folder, name, suggestion):
+def test_an_unknown_model_gets_suggestions(folder: Path, name: str, suggestion: str) -> None:
     refused = shearbox(folder, model=name)
     assert refused.returncode == 2
     assert f"unknown model '{name}'" in refused.stderr
     assert suggestion in refused.stderr
 
 
-def test_a_model_made_of_its_name(folder, tmp_path):
+def test_a_model_made_of_its_name(folder: Path, tmp_path: Path) -> None:
     """Its file is in the folder of the run, which may be moved, and goes on there."""
     name = "TypeC_12.5x5_4-8_1-circle_auto"
     assert shearbox(folder, "--stress", "100", "--density", "loose", model=name).returncode == 0
@@ -466,18 +473,27 @@ def test_a_model_made_of_its_name(folder, tmp_path):
     assert summary(folder)["parameters"]["phi_packing"] == "45"
     assert summary(folder)["model"] == name
     moved = folder.rename(tmp_path / "moved")
-    further = [SHEARBOX, "run", str(moved), "--stress", "200", "--dry-run", "--engine", str(TESTS / "fake_engine.py")]
+    further = [
+        str(SHEARBOX),
+        "run",
+        str(moved),
+        "--stress",
+        "200",
+        "--dry-run",
+        "--engine",
+        str(TESTS / "fake_engine.py"),
+    ]
     assert subprocess.run(further, capture_output=True, timeout=120).returncode == 0
     other = shearbox(moved, "--stress", "100", model=name)
     assert other.returncode == 2 and "model ngrains" in other.stderr and "phi_packing" in other.stderr
 
 
-def test_density_is_given_once(folder):
+def test_density_is_given_once(folder: Path) -> None:
     refused = shearbox(folder, "--density", "loose", "--set", "phi_packing=3")
     assert refused.returncode == 2 and "--density: --set phi_packing is given, too" in refused.stderr
 
 
-def test_a_model_file_of_ones_own(folder, tmp_path):
+def test_a_model_file_of_ones_own(folder: Path, tmp_path: Path) -> None:
     path = tmp_path / "pebbles.in"
     text = (SHEARBOX.parents[1] / "input" / "models" / f"{MODEL}.in").read_text(encoding="utf-8")
     text = text.replace("index 350", "index 250")
@@ -495,7 +511,7 @@ def test_a_model_file_of_ones_own(folder, tmp_path):
 
 
 @pytest.fixture(name="used", scope="module")
-def _used(tmp_path_factory) -> Path:
+def _used(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("used") / "results"
     assert shearbox(folder, "--stress", "100").returncode == 0
     return folder
@@ -513,7 +529,7 @@ def _used(tmp_path_factory) -> Path:
         ([], "TypeB_15x5_4-8_1-circle_550", f"model: {MODEL} there, TypeB_15x5_4-8_1-circle_550 asked for"),
     ],
 )
-def test_a_folder_of_another_request_is_refused(used, options, model, difference):
+def test_a_folder_of_another_request_is_refused(used: Path, options: list[str], model: str, difference: str) -> None:
     before = {path: path.stat().st_mtime_ns for path in used.rglob("*")}
     refused = shearbox(used, "--stress", "100", *options, model=model)
     assert refused.returncode == 2
@@ -524,7 +540,7 @@ def test_a_folder_of_another_request_is_refused(used, options, model, difference
 
 
 @pytest.mark.parametrize("asked", ["as before", "as it was asked for"])
-def test_what_was_packed_by_other_decks_does_not_go_on(used, tmp_path, asked):
+def test_what_was_packed_by_other_decks_does_not_go_on(used: Path, tmp_path: Path, asked: str) -> None:
     """Their parameters.in did not have the friction of packing, which was done in another way."""
     folder = tmp_path / "older"
     shutil.copytree(used, folder)
@@ -538,7 +554,7 @@ def test_what_was_packed_by_other_decks_does_not_go_on(used, tmp_path, asked):
     assert "Another version began it" in refused.stderr
 
 
-def test_a_folder_of_something_else_is_refused(folder):
+def test_a_folder_of_something_else_is_refused(folder: Path) -> None:
     folder.mkdir()
     (folder / "letter.txt").write_text("dear", encoding="utf-8")
     refused = shearbox(folder)
@@ -547,7 +563,7 @@ def test_a_folder_of_something_else_is_refused(folder):
     assert [path.name for path in folder.iterdir()] == ["letter.txt"]
 
 
-def test_a_file_is_not_a_folder(folder):
+def test_a_file_is_not_a_folder(folder: Path) -> None:
     folder.write_text("", encoding="utf-8")
     refused = shearbox(folder)
     assert refused.returncode == 2
@@ -557,7 +573,7 @@ def test_a_file_is_not_a_folder(folder):
 @pytest.mark.parametrize(
     "text, message", [("{", "run.json, line 1"), ("[]", "not the record of a run"), ("", "line 1. .*another folder")]
 )
-def test_a_damaged_record_is_named(folder, text, message):
+def test_a_damaged_record_is_named(folder: Path, text: str, message: str) -> None:
     folder.mkdir()
     (folder / "run.json").write_text(text, encoding="utf-8")
     refused = shearbox(folder)
@@ -566,7 +582,7 @@ def test_a_damaged_record_is_named(folder, text, message):
     assert (folder / "run.json").read_text(encoding="utf-8") == text
 
 
-def test_help_of_every_command():
+def test_help_of_every_command() -> None:
     commands: list[list[str]] = [[], ["models"], ["run"], ["report"]]
     for words in commands:
         done = subprocess.run([str(SHEARBOX), *words, "--help"], capture_output=True, text=True, timeout=30)

@@ -21,7 +21,7 @@ SCRIPTS = [
 
 
 @pytest.mark.parametrize("script", SCRIPTS)
-def test_through_a_link(tmp_path, script):
+def test_through_a_link(tmp_path: Path, script: str) -> None:
     """Up to where it goes to the root of the repository: what follows is replaced by a look at where it is."""
     copy = tmp_path / "repository" / script
     copy.parent.mkdir(parents=True)
@@ -37,7 +37,7 @@ def test_through_a_link(tmp_path, script):
 
 
 @pytest.mark.parametrize("encoding", ["latin-1", "ascii"])
-def test_a_terminal_without_all_letters(encoding):
+def test_a_terminal_without_all_letters(encoding: str) -> None:
     for words in (["models"], ["parameters"], ["run", "nö\udcff", "--out", "ö"]):
         said = subprocess.run(
             [ROOT / "tools" / "shearbox", *words], env={**os.environ, "PYTHONIOENCODING": encoding},
@@ -48,7 +48,7 @@ def test_a_terminal_without_all_letters(encoding):
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can give a clone to another user")
-def test_version_in_a_clone_of_another_user(tmp_path):
+def test_version_in_a_clone_of_another_user(tmp_path: Path) -> None:
     clone = tmp_path / "clone"
     git = ["git", "-C", str(clone), "-c", "user.name=a", "-c", "user.email=a"]
     subprocess.run(["git", "init", "-q", clone], check=True)
@@ -60,7 +60,7 @@ def test_version_in_a_clone_of_another_user(tmp_path):
         f"-DOUTPUT={tmp_path / 'version.h'}",
         "-DVERSION=1",
         "-P",
-        ROOT / "tools/version.cmake",
+        str(ROOT / "tools/version.cmake"),
     ]
     subprocess.run(["cmake", *words], check=True, capture_output=True)
     assert "no git" not in (tmp_path / "version.h").read_text(encoding="utf-8")

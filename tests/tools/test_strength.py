@@ -14,7 +14,7 @@ from shearbox_tools.strength import fit_line, known_scatter
 SIGMA = np.array([100.0, 200, 300, 400])
 
 
-def test_exact_line():
+def test_exact_line() -> None:
     line = fit_line(SIGMA, 12 + SIGMA * np.tan(np.radians(31)), np.full(4, 2.0))
     assert line.c_kPa == pytest.approx(12)
     assert line.phi_deg == pytest.approx(31)
@@ -22,14 +22,14 @@ def test_exact_line():
 
 
 @pytest.mark.filterwarnings("error")
-def test_peaks_without_errors_have_a_line():
+def test_peaks_without_errors_have_a_line() -> None:
     """Of stresses that are all the same there is nothing that a line could explain."""
     line = fit_line(SIGMA, 12 + SIGMA / 2, np.zeros(4))
     assert (line.c_kPa, line.slope) == pytest.approx((12, 0.5))
     assert np.isnan(fit_line(SIGMA, np.zeros(4), np.zeros(4)).r_squared)
 
 
-def test_half_widths_of_equal_weights_are_the_textbook_ones():
+def test_half_widths_of_equal_weights_are_the_textbook_ones() -> None:
     tau = np.array([58.0, 104, 166, 209])
     line = fit_line(SIGMA, tau, np.ones(4))
     slope, intercept = np.polyfit(SIGMA, tau, 1)
@@ -41,7 +41,7 @@ def test_half_widths_of_equal_weights_are_the_textbook_ones():
     assert line.band(np.array([0.0]))[0] == pytest.approx(line.c_half_width_kPa)
 
 
-def test_errors_of_the_peaks_are_never_shrunk():
+def test_errors_of_the_peaks_are_never_shrunk() -> None:
     line = fit_line(SIGMA, 0.5 * SIGMA, np.full(4, 3.0))
     assert line.chi2_reduced == pytest.approx(0, abs=1e-12)
     spread = np.sum((SIGMA - 250) ** 2)
@@ -49,14 +49,14 @@ def test_errors_of_the_peaks_are_never_shrunk():
     assert line.phi_half_width_deg == pytest.approx(expected, rel=1e-6)
 
 
-def test_two_points_have_propagated_errors_only():
+def test_two_points_have_propagated_errors_only() -> None:
     line = fit_line(SIGMA[:2], np.array([50.0, 100.0]), np.array([3.0, 4.0]))
     assert line.chi2_reduced is None
     expected = np.degrees(1.959964 * 5 / 100 / 1.25)
     assert line.phi_half_width_deg == pytest.approx(expected, rel=1e-6)
 
 
-def test_interval_holds_the_truth_in_95_of_100():
+def test_interval_holds_the_truth_in_95_of_100() -> None:
     rng = np.random.default_rng(7)
     hits = 0
     for _ in range(1000):

@@ -250,7 +250,9 @@ def test_a_path_in_which_slurm_sees_patterns_is_refused(tmp_path: Path, idle: Pa
         (1, 48, None, 1, [1], 4, 1),
     ],
 )
-def test_what_shares_a_job(runs, cores, asked, ranks, elements, at_a_time, nodes) -> None:
+def test_what_shares_a_job(
+    runs: int, cores: int, asked: int | None, ranks: int, elements: list[int], at_a_time: int, nodes: int
+) -> None:
     layout = Layout(specimens(runs), Cluster(cores=cores), asked, ranks)
     assert [len(element) for element in layout.elements] == elements
     assert (layout.at_a_time, layout.cores, layout.nodes) == (at_a_time, at_a_time * ranks, nodes)
