@@ -21,7 +21,7 @@ from PIL import Image
 matplotlib.use("Agg")
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tools"))
-from shearbox_tools.dumps import DISCS, Dump  # noqa: E402
+from shearbox_tools.reading.dumps import DISCS, Dump  # noqa: E402
 
 Columns = dict[str, np.ndarray]
 GRAIN, WALL = "#9db7d5", "#8c8c8c"

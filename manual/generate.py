@@ -6,9 +6,9 @@ import argparse
 import re
 from pathlib import Path
 
-from shearbox_tools.cli import make_parser
-from shearbox_tools.models import INPUT
-from shearbox_tools.parameters import parameters
+from shearbox_tools.asking.models import INPUT
+from shearbox_tools.asking.parameters import parameters
+from shearbox_tools.commands.cli import make_parser
 
 ROOT = Path(__file__).resolve().parents[1]
 _SPECIAL = re.compile(r"([\\`*_{}\[\]<>#$|~])")

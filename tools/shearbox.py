@@ -21,17 +21,17 @@ from typing import Any
 import pandas as pd
 from rich.console import Console
 
-from shearbox_tools.campaign_file import words_of
-from shearbox_tools.display import Whole
-from shearbox_tools.errors import InputError, ShearboxError
-from shearbox_tools.polynomial import Fit
-from shearbox_tools.reporting import report_on
-from shearbox_tools.results import Results, read_results
-from shearbox_tools.run import carry_out, opened, prepare
-from shearbox_tools.run_options import parse_run
-from shearbox_tools.shear import Shear
-from shearbox_tools.specimens import find_runs
-from shearbox_tools.tables import Tables
+from shearbox_tools.analysis.polynomial import Fit
+from shearbox_tools.analysis.results import Results, read_results
+from shearbox_tools.analysis.shear import Shear
+from shearbox_tools.base.errors import InputError, ShearboxError
+from shearbox_tools.commands.campaign_file import words_of
+from shearbox_tools.commands.run import carry_out, opened, prepare
+from shearbox_tools.commands.run_options import parse_run
+from shearbox_tools.frames.tables import Tables
+from shearbox_tools.reports.report_on import report_on
+from shearbox_tools.running.display import Whole
+from shearbox_tools.running.run_folders import find_runs
 
 Error = ShearboxError
 Progress = Callable[[float, str], None]

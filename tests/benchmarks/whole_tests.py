@@ -21,7 +21,7 @@ from cases import FULL_TEST, Shear
 from engines import CDEM, PROGRAMS, ROOT, TO_MEASURE, EngineError
 
 sys.path.insert(0, str(ROOT / "tools"))
-from shearbox_tools.presets import SPEEDS  # noqa: E402
+from shearbox_tools.base.presets import SPEEDS  # noqa: E402
 
 MODEL = "TypeA_10x5_4-8_1-circle_350"
 STRESSES = (100, 200, 300, 400)  # kPa

@@ -11,9 +11,9 @@ import pytest
 from engine import Run, run
 from input_decks import INPUT, SHEARING, SPECIMEN
 
-from shearbox_tools.dumps import Dump
-from shearbox_tools.files import CONTACTS_DUMP, GRAINS_DUMP, PACKED_TABLE, SHEAR_TABLE
-from shearbox_tools.readers import Columns, read_shear
+from shearbox_tools.base.files import CONTACTS_DUMP, GRAINS_DUMP, PACKED_TABLE, SHEAR_TABLE
+from shearbox_tools.reading.dumps import Dump
+from shearbox_tools.reading.readers import Columns, read_shear
 
 KN = 1e8  # N/m
 SHORT: dict[str, Any] = SPECIMEN | SHEARING | {"model": "few", "speed": 50, "rest": 0.01}

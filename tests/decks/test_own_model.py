@@ -14,8 +14,10 @@ import pytest
 from engine import run, start
 from input_decks import INPUT, SHEARING, SPECIMEN
 
-from shearbox_tools.dumps import Dump
-from shearbox_tools.files import (
+from shearbox_tools.analysis.moments import Film, count_lost
+from shearbox_tools.asking.grains import area_over_largest
+from shearbox_tools.asking.models import read_model
+from shearbox_tools.base.files import (
     CELLS_DUMP,
     CONSOLIDATED_RESTART,
     CONSOLIDATED_TABLE,
@@ -23,12 +25,10 @@ from shearbox_tools.files import (
     DISCS_DUMP,
     GRAINS_DUMP,
 )
-from shearbox_tools.files import PACKED_TABLE, SHEAR_TABLE, SHEARED_RESTART
-from shearbox_tools.grains import area_over_largest
-from shearbox_tools.models import read_model
-from shearbox_tools.readers import read_row, read_shear
-from shearbox_tools.specimen import Film, count_lost
-from shearbox_tools.tables import Tables
+from shearbox_tools.base.files import PACKED_TABLE, SHEAR_TABLE, SHEARED_RESTART
+from shearbox_tools.frames.tables import Tables
+from shearbox_tools.reading.dumps import Dump
+from shearbox_tools.reading.readers import read_row, read_shear
 
 D = 2e-3  # m, of the discs
 GRAINS, WIDTH, HALF_HEIGHT = 40, 0.03, 0.012

@@ -15,12 +15,12 @@ import pytest
 from engine import DECKS, ENVIRONMENT, PROGRAM, Frame, run, start
 from input_decks import INPUT
 
-from shearbox_tools.files import PACKED_RESTART, PACKED_TABLE
-from shearbox_tools.models import find_model
-from shearbox_tools.named import model_text
-from shearbox_tools.presets import DENSITIES, PACKING_FRICTION
-from shearbox_tools.readers import read_row
-from shearbox_tools.restarts import step_of
+from shearbox_tools.asking.models import find_model
+from shearbox_tools.asking.named import model_text
+from shearbox_tools.base.files import PACKED_RESTART, PACKED_TABLE
+from shearbox_tools.base.presets import DENSITIES, PACKING_FRICTION
+from shearbox_tools.base.restarts import step_of
+from shearbox_tools.reading.readers import read_row
 
 SMALL = "TypeA_4x2_2-4_1-circle_auto"
 

@@ -24,11 +24,11 @@ COMPARED = ("packed/packed.csv", *(f"100/{name}" for name in ("consolidated.csv"
             "discs.dump", "contacts.dump", "cells.dump")))  # fmt: skip
 
 sys.path.insert(0, str(ROOT / "tools"))
-from shearbox_tools.cli import make_parser  # noqa: E402
-from shearbox_tools.lock import locked  # noqa: E402
-from shearbox_tools.readers import last_value  # noqa: E402
-from shearbox_tools.request import open_folder  # noqa: E402
-from shearbox_tools.run import carry_out, prepare  # noqa: E402
+from shearbox_tools.asking.request import open_folder  # noqa: E402
+from shearbox_tools.base.lock import locked  # noqa: E402
+from shearbox_tools.commands.cli import make_parser  # noqa: E402
+from shearbox_tools.commands.run import carry_out, prepare  # noqa: E402
+from shearbox_tools.reading.readers import last_value  # noqa: E402
 
 
 class Bench:

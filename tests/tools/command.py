@@ -16,8 +16,8 @@ MODEL = "TypeA_10x5_4-8_1-circle_350"
 WITHOUT_REPORT = f"""
 import sys, types
 sys.path.insert(0, {str(SHEARBOX.parent)!r})
-sys.modules["shearbox_tools.reporting"] = types.SimpleNamespace(report_on=lambda folder, each: folder / "report.html")
-from shearbox_tools.cli import main
+sys.modules["shearbox_tools.reports.report_on"] = types.SimpleNamespace(report_on=lambda folder, each: folder / "report.html")
+from shearbox_tools.commands.cli import main
 sys.exit(main())
 """
 

@@ -22,4 +22,4 @@ from undrawn import DRAWING  # noqa: E402  it needs the path of the tests
 def _undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
     """What is written about runs, without their pictures."""
     for name, nothing in DRAWING.items():
-        monkeypatch.setattr(f"shearbox_tools.report.{name}", nothing)
+        monkeypatch.setattr(f"shearbox_tools.reports.run_report.{name}", nothing)

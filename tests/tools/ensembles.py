@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import synthetic
 
-from shearbox_tools.models import find_model
-from shearbox_tools.request import Request
-from shearbox_tools.results import Results
+from shearbox_tools.analysis.results import Results
+from shearbox_tools.asking.models import find_model
+from shearbox_tools.asking.request import Request
 
 REQUEST = Request(find_model("TypeA_10x5_4-8_1-circle_350"), (100.0, 200.0, 300.0))
 ROWS, TRAVEL = 800, 8.0

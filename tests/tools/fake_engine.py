@@ -15,9 +15,9 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
 import synthetic  # noqa: E402  its own imports need the path of the tools
-from shearbox_tools.files import DUMPS  # noqa: E402
-from shearbox_tools.phases import rows_of_shear, steps_between_frames  # noqa: E402
-from shearbox_tools.restarts import step_of  # noqa: E402
+from shearbox_tools.base.files import DUMPS  # noqa: E402
+from shearbox_tools.base.restarts import step_of  # noqa: E402
+from shearbox_tools.running.phases import rows_of_shear, steps_between_frames  # noqa: E402
 
 ROWS = rows_of_shear()
 ROWS_PER_FRAME = steps_between_frames({}, 1)

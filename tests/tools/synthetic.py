@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from shearbox_tools.models import INPUT, read_variables
-from shearbox_tools.request import Request
-from shearbox_tools.specimen import Moment
+from shearbox_tools.analysis.moments import Moment
+from shearbox_tools.asking.models import INPUT, read_variables
+from shearbox_tools.asking.request import Request
 
 STEPS_PER_ROW = 5000
 GRAINS = 350

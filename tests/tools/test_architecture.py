@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from rooms import ROOMS
+from rooms import ROOMS, TOOLS_ROOMS
 
 ROOT = Path(__file__).resolve().parents[2]
 PICTURE = ROOT / "src" / "step.svg"
@@ -47,9 +47,11 @@ def braces(name: str) -> Iterator[str]:
         yield name.replace(inner[0], part) if inner else name
 
 
-def test_the_table_has_all_rooms_in_their_order() -> None:
+def test_the_tables_have_all_rooms_in_their_order() -> None:
     rooms = re.findall(r"^\| \[(?:src/)?(\w+)\]\(src/", text("ARCHITECTURE.md"), re.MULTILINE)
     assert rooms == ROOMS
+    rooms = re.findall(r"^\| \[(\w+)\]\(tools/shearbox_tools/", text("ARCHITECTURE.md"), re.MULTILINE)
+    assert rooms == TOOLS_ROOMS
 
 
 def anchors(document: str) -> set[str]:

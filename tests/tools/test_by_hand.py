@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 import synthetic
-from shearbox_tools import cli
-from shearbox_tools.by_hand import read_by_hand
-from shearbox_tools.errors import ShearboxError
-from shearbox_tools.grouping import put_together
-from shearbox_tools.readers import BED, read_shear
-from shearbox_tools.reporting import report_on
+from shearbox_tools.analysis.by_hand import read_by_hand
+from shearbox_tools.analysis.grouping import put_together
+from shearbox_tools.base.errors import ShearboxError
+from shearbox_tools.commands import cli
+from shearbox_tools.reading.readers import BED, read_shear
+from shearbox_tools.reports.report_on import report_on
 
 MODEL = "TypeA_10x5_4-8_1-circle_350"
 LOG = """LAMMPS (29 Sep 2021)

@@ -9,12 +9,12 @@ import pytest
 import synthetic
 from command import MODEL, shearbox
 
-from shearbox_tools.box_width import narrow
-from shearbox_tools.cautions import cautions
-from shearbox_tools.grains import length_over_largest
-from shearbox_tools.models import all_models, find_model
-from shearbox_tools.request import Request
-from shearbox_tools.results import read_results
+from shearbox_tools.analysis.results import read_results
+from shearbox_tools.asking.box_width import narrow
+from shearbox_tools.asking.grains import length_over_largest
+from shearbox_tools.asking.models import all_models, find_model
+from shearbox_tools.asking.request import Request
+from shearbox_tools.running.cautions import cautions
 
 
 def request(**settings: str) -> Request:

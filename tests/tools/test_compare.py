@@ -15,8 +15,7 @@ import synthetic
 from ensembles import REQUEST, only, specimens, write_run
 from scipy import stats
 
-from shearbox_tools.cli import main
-from shearbox_tools.comparison import (
+from shearbox_tools.analysis.comparison import (
     ALONE,
     PAIRED,
     PAIRED_TESTS,
@@ -25,8 +24,9 @@ from shearbox_tools.comparison import (
     Comparison,
     same_packings,
 )
-from shearbox_tools.ensemble_results import Ensemble
-from shearbox_tools.results import Results, read_results
+from shearbox_tools.analysis.ensemble_results import Ensemble
+from shearbox_tools.analysis.results import Results, read_results
+from shearbox_tools.commands.cli import main
 
 STRESSES = (100.0, 200.0, 300.0)
 OUTSIDE = 0.05

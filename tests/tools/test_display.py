@@ -7,7 +7,8 @@ import time
 import pytest
 from rich.console import Console
 
-from shearbox_tools import display, words
+from shearbox_tools.base import words
+from shearbox_tools.running import display
 
 
 def show(console: Console, monkeypatch: pytest.MonkeyPatch) -> str:

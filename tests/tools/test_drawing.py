@@ -4,7 +4,7 @@
 import pytest
 from synthetic import moment
 
-from shearbox_tools.drawing import _between
+from shearbox_tools.drawing.pictures import _between
 
 
 def test_what_lies_between_the_ends_of_a_smooth_wall() -> None:

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from shearbox_tools.ensemble import strength_of_shared
+from shearbox_tools.analysis.ensemble import strength_of_shared
 from paper_tools.effects import (
     CONFIRMED,
     CONTRADICTED,

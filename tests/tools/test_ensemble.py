@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from shearbox_tools.ensemble import EnsembleStrength, mean_of, strength_of_independent, strength_of_shared
+from shearbox_tools.analysis.ensemble import EnsembleStrength, mean_of, strength_of_independent, strength_of_shared
 
 SIGMA = np.array([100.0, 200, 300, 400])
 TRIALS = 1000

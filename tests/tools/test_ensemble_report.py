@@ -17,19 +17,19 @@ import numpy as np
 import pytest
 import synthetic
 from ensembles import FACTORS, REQUEST, base, only, write_run
-from shearbox_tools.ensemble_results import INDEPENDENT, SHARED, Ensemble
-from shearbox_tools.ensemble_summary import summarise_all
-from shearbox_tools.errors import ShearboxError
-from shearbox_tools.grouping import put_together, what_differs, what_is_set
-from shearbox_tools.mean_curve import average
-from shearbox_tools.models import PARAMETERS, read_variables
-from shearbox_tools.quasistatic import Inertia
-from shearbox_tools.reporting import report_on
-from shearbox_tools.request import OWN_OPTION
-from shearbox_tools.results import Results, read_results
-from shearbox_tools.shear import Shear
-from shearbox_tools.specimens import find_runs
-from shearbox_tools.stress_dilatancy import Dilatant
+from shearbox_tools.analysis.ensemble_results import INDEPENDENT, SHARED, Ensemble
+from shearbox_tools.analysis.grouping import put_together, what_differs, what_is_set
+from shearbox_tools.analysis.mean_curve import average
+from shearbox_tools.analysis.quasistatic import Inertia
+from shearbox_tools.analysis.results import Results, read_results
+from shearbox_tools.analysis.shear import Shear
+from shearbox_tools.analysis.stress_dilatancy import Dilatant
+from shearbox_tools.asking.models import PARAMETERS, read_variables
+from shearbox_tools.asking.request import OWN_OPTION
+from shearbox_tools.base.errors import ShearboxError
+from shearbox_tools.reports.ensemble_summary import summarise_all
+from shearbox_tools.reports.report_on import report_on
+from shearbox_tools.running.run_folders import find_runs
 
 
 @pytest.fixture(name="runs", scope="module")

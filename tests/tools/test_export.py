@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 import synthetic
 
-from shearbox_tools.cli import main
-from shearbox_tools.dumps import CONTACTS, DISCS, GRAINS, Dump
-from shearbox_tools.table_files import write_ovito
-from shearbox_tools.tables import Instant
+from shearbox_tools.commands.cli import main
+from shearbox_tools.frames.table_files import write_ovito
+from shearbox_tools.frames.tables import Instant
+from shearbox_tools.reading.dumps import CONTACTS, DISCS, GRAINS, Dump
 
 STEPS = [0, 2000000, 4000000]
 DT = 1e-6

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from synthetic import correlated_noise, curves
 
-from shearbox_tools import features
-from shearbox_tools.peak import find_peak, steepest
-from shearbox_tools.polynomial import end_zone, fit_curve
-from shearbox_tools.strength import fit_line
+from shearbox_tools.analysis import features
+from shearbox_tools.analysis.peak import find_peak, steepest
+from shearbox_tools.analysis.polynomial import end_zone, fit_curve
+from shearbox_tools.analysis.strength import fit_line
 
 SIGMA = np.array([100.0, 200, 300, 400])
 

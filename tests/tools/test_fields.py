@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 import synthetic
 
-from shearbox_tools.errors import ShearboxError
-from shearbox_tools.fields import Box, Fields
-from shearbox_tools.specimen import Film, Moment
+from shearbox_tools.analysis.fields import Box, Fields
+from shearbox_tools.analysis.moments import Film, Moment
+from shearbox_tools.base.errors import ShearboxError
 
 BOX = Box(half_height=0.05, thickness=0.01)
 TRAVEL = 7.0  # mm; of the first cells of 10 mm of the lower half, 3 mm stay inside

@@ -14,12 +14,12 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 from synthetic import moment
 
-from shearbox_tools import scene
-from shearbox_tools.cli import main
-from shearbox_tools.models import find_model
-from shearbox_tools.paints import grain_areas, make_paint, mean_stress
-from shearbox_tools.request import Request
-from shearbox_tools.specimen import Film, Moment
+from shearbox_tools.analysis.moments import Film, Moment
+from shearbox_tools.asking.models import find_model
+from shearbox_tools.asking.request import Request
+from shearbox_tools.commands.cli import main
+from shearbox_tools.drawing import scene
+from shearbox_tools.drawing.paints import grain_areas, make_paint, mean_stress
 
 STEPS = [0, 1000000, 2500000, 4000000]
 TRAVEL = 8.0

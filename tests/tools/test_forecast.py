@@ -9,13 +9,13 @@ from typing import Any
 import pytest
 import synthetic
 
-from shearbox_tools.forecast import Forecast, memory_of_all, time_step, total
-from shearbox_tools.models import find_model
-from shearbox_tools.phases import SHEAR, Phase, packing, shearing, steps_between_frames
-from shearbox_tools.readers import BED
-from shearbox_tools.request import Request
-from shearbox_tools.run import forecast_text
-from shearbox_tools.specimens import Run
+from shearbox_tools.asking.models import find_model
+from shearbox_tools.asking.request import Request
+from shearbox_tools.commands.run import forecast_text
+from shearbox_tools.reading.readers import BED
+from shearbox_tools.running.forecast import Forecast, memory_of_all, time_step, total
+from shearbox_tools.running.phases import SHEAR, Phase, packing, shearing, steps_between_frames
+from shearbox_tools.running.run_folders import Run
 
 GOODBYE = "Total wall time: 0:00:01\n"
 

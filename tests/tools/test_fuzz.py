@@ -20,16 +20,16 @@ import synthetic
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from shearbox_tools.checks import check
-from shearbox_tools.dumps import CONTACTS, DISCS, GRAINS, Dump
-from shearbox_tools.errors import InputError, ShearboxError
-from shearbox_tools.grains import discs_of
-from shearbox_tools.logs import read_log
-from shearbox_tools.models import INPUT, PARAMETERS, read_model
-from shearbox_tools.parameters import parameters, read_settings
-from shearbox_tools.readers import last_value, read_row, read_shear
-from shearbox_tools.request import OWN_OPTION, Request, read_record, recorded
-from shearbox_tools.timings import read_timings
+from shearbox_tools.asking.grains import discs_of
+from shearbox_tools.asking.models import INPUT, PARAMETERS, read_model
+from shearbox_tools.asking.parameters import parameters, read_settings
+from shearbox_tools.asking.request import OWN_OPTION, Request, read_record, recorded
+from shearbox_tools.base.errors import InputError, ShearboxError
+from shearbox_tools.base.logs import read_log
+from shearbox_tools.base.timings import read_timings
+from shearbox_tools.reading.dumps import CONTACTS, DISCS, GRAINS, Dump
+from shearbox_tools.reading.readers import last_value, read_row, read_shear
+from shearbox_tools.running.checks import check
 
 EXAMPLES = int(os.environ.get("FUZZ_EXAMPLES", "25"))
 MODEL = INPUT / "models" / "TypeA_10x5_4-8_1-circle_350.in"

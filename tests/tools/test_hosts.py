@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from shearbox_tools import hosts
-from shearbox_tools.errors import InputError
-from shearbox_tools.presets import LAMMPS, LIGGGHTS
+from shearbox_tools.asking import hosts
+from shearbox_tools.base.errors import InputError
+from shearbox_tools.base.presets import LAMMPS, LIGGGHTS
 
 
 def test_a_library_that_is_not_built_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

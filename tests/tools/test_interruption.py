@@ -17,21 +17,22 @@ from pathlib import Path
 
 import pytest
 import synthetic
-from shearbox_tools import campaign, seals
-from shearbox_tools.engine import Engine
-from shearbox_tools.errors import InputError, ShearboxError
-from shearbox_tools.files import DUMPS, write_text
-from shearbox_tools.forecast import Forecast
-from shearbox_tools.lock import locked
-from shearbox_tools.models import INPUT, find_model
-from shearbox_tools.phases import Phase, all_phases, left_to_do, rows_of_shear, steps_between_frames
-from shearbox_tools.readers import BED, read_shear
-from shearbox_tools.repair import make_ready
-from shearbox_tools.request import Request, check_folder, open_folder, read_record, recorded
-from shearbox_tools.restarts import is_whole, step_of
-from shearbox_tools.results import read_results
-from shearbox_tools.seals import Seal, look_at, refuse_altered, seal
-from shearbox_tools.specimens import Run
+from shearbox_tools.analysis.results import read_results
+from shearbox_tools.asking.models import INPUT, find_model
+from shearbox_tools.asking.request import Request, check_folder, open_folder, read_record, recorded
+from shearbox_tools.base import seals
+from shearbox_tools.base.errors import InputError, ShearboxError
+from shearbox_tools.base.files import DUMPS, write_text
+from shearbox_tools.base.lock import locked
+from shearbox_tools.base.restarts import is_whole, step_of
+from shearbox_tools.base.seals import Seal, look_at, refuse_altered, seal
+from shearbox_tools.reading.readers import BED, read_shear
+from shearbox_tools.running import campaign
+from shearbox_tools.running.engine import Engine
+from shearbox_tools.running.forecast import Forecast
+from shearbox_tools.running.phases import Phase, all_phases, left_to_do, rows_of_shear, steps_between_frames
+from shearbox_tools.running.repair import make_ready
+from shearbox_tools.running.run_folders import Run
 
 ROWS = rows_of_shear()
 EVERY = synthetic.STEPS_PER_ROW
@@ -450,7 +451,7 @@ def test_a_record_that_lacks_something_is_refused(folder: Path, lost: str) -> No
         read_record(folder)
 
 
-HOLD = "import sys, time; from pathlib import Path; from shearbox_tools.lock import locked\n"
+HOLD = "import sys, time; from pathlib import Path; from shearbox_tools.base.lock import locked\n"
 
 
 @pytest.fixture(name="holder")

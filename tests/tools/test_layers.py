@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The rooms of the engine's source, in the order of a step: each knows itself and those before it, and no two files need
-each other."""
+"""The rooms of the engine's source, in the order of a step, and those of the tools: each knows itself and those before it, and no
+two files need each other."""
 
 from __future__ import annotations
 
+import ast
 import re
 from pathlib import Path
 
 import pytest
-from rooms import ROOMS
+from rooms import ROOMS, TOOLS_ROOMS
 
 SOURCE = Path(__file__).resolve().parents[2] / "src"
+TOOLS = SOURCE.parent / "tools" / "shearbox_tools"
 
-Graph = dict[str, set[str]]  # a header or source file without its ending, and the files that it includes
+Graph = dict[str, set[str]]  # a file without its ending, and the files that it needs
 
 
 def folder_of(room: str) -> Path:
@@ -35,10 +37,10 @@ def file_of(name: str) -> Path:
     return folder_of(room) / f"{rest}.h"
 
 
-def against_the_flow(graph: Graph) -> list[str]:
-    rank = {room: k for k, room in enumerate(ROOMS)}
+def against_the_flow(graph: Graph, rooms: list[str]) -> list[str]:
+    rank = {room: k for k, room in enumerate(rooms)}
     return [
-        f"{name} includes {other}.h"
+        f"{name} needs {other}"
         for name, included in sorted(graph.items())
         for other in sorted(included)
         if rank[other.split("/")[0]] > rank[name.split("/")[0]]
@@ -63,6 +65,26 @@ def cycle(graph: Graph) -> list[str]:
     return next((found for name in sorted(graph) if (found := search(name, []))), [])
 
 
+def read_tools() -> Graph:
+    """The modules of the tools, and those that they import, wherever in the file."""
+    modules = {path: module_of(path) for path in sorted(TOOLS.rglob("*.py")) if path.parent != TOOLS}
+    return {name: imported_by(path) & set(modules.values()) - {name} for path, name in modules.items()}
+
+
+def module_of(path: Path) -> str:
+    """room/name; of the __init__.py of a folder the folder."""
+    return str(path.relative_to(TOOLS)).removesuffix(".py").removesuffix("/__init__")
+
+
+def imported_by(path: Path) -> set[str]:
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.level:
+            place = path.parents[node.level - 1].joinpath(*(node.module or "").split("."))
+            found |= {module_of(place), *(module_of(place / alias.name) for alias in node.names)}
+    return found
+
+
 def test_all_rooms_are_known() -> None:
     folders = {path.name for path in (SOURCE / "lammps").iterdir()} | {"core"}
     assert folders == set(ROOMS)
@@ -70,7 +92,7 @@ def test_all_rooms_are_known() -> None:
 
 
 def test_no_room_looks_into_a_later_one() -> None:
-    assert against_the_flow(read_graph()) == []
+    assert against_the_flow(read_graph(), ROOMS) == []
 
 
 def test_no_cycle() -> None:
@@ -86,7 +108,7 @@ def test_core_knows_no_engine() -> None:
 def test_a_back_include_is_found(back: str) -> None:
     graph = read_graph()
     graph["grains/grain_rows"].add(back)
-    assert against_the_flow(graph) == [f"grains/grain_rows includes {back}.h"]
+    assert against_the_flow(graph, ROOMS) == [f"grains/grain_rows needs {back}"]
 
 
 def test_a_cycle_is_found() -> None:
@@ -110,7 +132,34 @@ def test_values_say_whether_they_are_extensive() -> None:
             assert re.search(rf"\bext{kind}\b", text), f"{path}: ext{kind}"
 
 
-def test_no_test_and_no_study_needs_another_test() -> None:
+def test_all_rooms_of_the_tools_are_known() -> None:
+    folders = {path.parent.name for path in TOOLS.glob("*/__init__.py")}
+    assert folders == set(TOOLS_ROOMS)
+    assert [path.name for path in TOOLS.glob("*.py")] == ["__init__.py"]
+    assert len(read_tools()) > 80
+
+
+def test_no_room_of_the_tools_looks_into_a_later_one() -> None:
+    assert against_the_flow(read_tools(), TOOLS_ROOMS) == []
+
+
+def test_no_cycle_in_the_tools() -> None:
+    assert cycle(read_tools()) == []
+
+
+def test_no_module_has_the_name_of_a_room() -> None:
+    assert not {name.split("/")[-1] for name in read_tools() if "/" in name} & set(TOOLS_ROOMS)
+
+
+@pytest.mark.parametrize("back", ["reports/page", "running/campaign"])
+def test_a_back_import_is_found(back: str) -> None:
+    graph = read_tools()
+    assert back in graph
+    graph["asking/models"].add(back)
+    assert against_the_flow(graph, TOOLS_ROOMS) == [f"asking/models needs {back}"]
+
+
+def test_no_test_of_the_tools_needs_another() -> None:
     """What several need is in files of its own (scenes.py, command.py ...): then each can be read, changed and run alone."""
     tests = SOURCE.parent / "tests"
     files = [*tests.glob("**/*.py"), *tests.glob("validation/*/run")]

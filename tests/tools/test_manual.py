@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from browser import needs_browser, told
 
-from shearbox_tools.parameters import parameters
+from shearbox_tools.asking.parameters import parameters
 
 ROOT = Path(__file__).resolve().parents[2]
 NEEDED = [name for name in ("sphinx", "myst_parser", "furo") if importlib.util.find_spec(name) is None]

@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from shearbox_tools.errors import InputError, ShearboxError
-from shearbox_tools.grains import area_over_largest
-from shearbox_tools.models import INPUT, Model, all_models, find_model, model_files, read_model, read_variables
-from shearbox_tools.named import model_text
-from shearbox_tools.parameters import parameters
-from shearbox_tools.presets import LAWS
-from shearbox_tools.table import print_models
+from shearbox_tools.asking.grains import area_over_largest
+from shearbox_tools.asking.models import INPUT, Model, all_models, find_model, model_files, read_model, read_variables
+from shearbox_tools.asking.named import model_text
+from shearbox_tools.asking.parameters import parameters
+from shearbox_tools.base.errors import InputError, ShearboxError
+from shearbox_tools.base.presets import LAWS
+from shearbox_tools.commands.listing import print_models
 
 NAME = re.compile(r"Type[A-D]_(\d+)x(\d+)_(?:T-(\d)|(\d)-(\d))_([13])-circle_(\d+)")
 

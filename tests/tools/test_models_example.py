@@ -9,7 +9,7 @@ from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
 
 import pytest
-from shearbox_tools.models import Model
+from shearbox_tools.asking.models import Model
 
 ROOT = Path(__file__).resolve().parents[2]
 LOADER = SourceFileLoader("models_example", str(ROOT / "examples" / "models" / "run"))

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from shearbox_tools.motion import full_speed
+from shearbox_tools.analysis.motion import full_speed
 
 TRAVEL, ROWS, STEPS = 8.0, 800, 60
 

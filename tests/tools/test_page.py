@@ -14,14 +14,14 @@ import synthetic
 from browser import chromium, needs_browser, told
 from ensembles import REQUEST, specimens, write_run
 
-from shearbox_tools.comparing import Member, write_comparison
-from shearbox_tools.ensemble_results import Ensemble
-from shearbox_tools.grouping import LeftOut
-from shearbox_tools.models import find_model
-from shearbox_tools.report import report
-from shearbox_tools.reporting import report_on
-from shearbox_tools.request import Request
-from shearbox_tools.results import read_results
+from shearbox_tools.analysis.ensemble_results import Ensemble
+from shearbox_tools.analysis.grouping import LeftOut
+from shearbox_tools.analysis.results import read_results
+from shearbox_tools.asking.models import find_model
+from shearbox_tools.asking.request import Request
+from shearbox_tools.reports.comparing import Member, write_comparison
+from shearbox_tools.reports.report_on import report_on
+from shearbox_tools.reports.run_report import report
 
 pytestmark = needs_browser
 

@@ -24,13 +24,13 @@ from paper_tools.record import read_record, write_record
 from paper_tools.specimens import CURVES, JUDGED, NUMBERS, PLACES, STRENGTHS, Group, Specimen
 from paper_tools.specimens import specimen as measured
 from paper_tools.study import CAMPAIGNS, Part, campaign_file, parts_left, report, runs_of
-from shearbox_tools.cli import main
-from shearbox_tools.errors import ShearboxError
-from shearbox_tools.grains import area_over_largest
-from shearbox_tools.models import find_model
-from shearbox_tools.phases import shearing
-from shearbox_tools.request import Request
-from shearbox_tools.results import read_results
+from shearbox_tools.analysis.results import read_results
+from shearbox_tools.asking.grains import area_over_largest
+from shearbox_tools.asking.models import find_model
+from shearbox_tools.asking.request import Request
+from shearbox_tools.base.errors import ShearboxError
+from shearbox_tools.commands.cli import main
+from shearbox_tools.running.phases import shearing
 
 PAPER = TESTS.parents[1] / "tools" / "paper"
 PER_BOX = 5  # specimens
@@ -429,7 +429,7 @@ def test_the_study_goes_on_from_what_is_kept(tmp_path: Path, monkeypatch: pytest
     write_record(known("smooth", "A_4-8", [1]) | known("friction", "single_0", [1, 2, 4]), kept)
     words = [str(PAPER), "--out", str(out), "--with", str(kept), "--campaign", "friction", "--only", "single_0"]
     monkeypatch.setattr("sys.argv", words)
-    monkeypatch.setattr("shearbox_tools.cli.main", asked.append)
+    monkeypatch.setattr("shearbox_tools.commands.cli.main", asked.append)
     monkeypatch.setattr("paper_tools.study.print_page", lambda page: None)
     with pytest.raises(SystemExit) as end:
         runpy.run_path(str(PAPER), run_name="__main__")
@@ -459,7 +459,7 @@ def test_a_campaign_that_was_stopped_or_failed_ends_it(tmp_path: Path, monkeypat
         asked.append(words)
         return 143
 
-    monkeypatch.setattr("shearbox_tools.cli.main", stopped)
+    monkeypatch.setattr("shearbox_tools.commands.cli.main", stopped)
     with pytest.raises(SystemExit) as end:
         runpy.run_path(str(PAPER), run_name="__main__")
     assert end.value.code == 143 and len(asked) == 1

@@ -9,13 +9,13 @@ import pytest
 from command import MODEL, SHEARBOX, UNDRAWN, command, shearbox
 from rich.console import Console
 
-from shearbox_tools.checks import check
-from shearbox_tools.errors import InputError, ShearboxError
-from shearbox_tools.models import INPUT, PARAMETERS, all_models, find_model, read_variables
-from shearbox_tools.parameters import parameters, read_settings
-from shearbox_tools.phases import packing
-from shearbox_tools.request import OWN_OPTION, Request, recorded
-from shearbox_tools.table import print_parameters
+from shearbox_tools.asking.models import INPUT, PARAMETERS, all_models, find_model, read_variables
+from shearbox_tools.asking.parameters import parameters, read_settings
+from shearbox_tools.asking.request import OWN_OPTION, Request, recorded
+from shearbox_tools.base.errors import InputError, ShearboxError
+from shearbox_tools.commands.listing import print_parameters
+from shearbox_tools.running.checks import check
+from shearbox_tools.running.phases import packing
 
 
 def test_all_variables_of_the_decks_have_a_range() -> None:
@@ -40,7 +40,7 @@ def test_the_list_says_unit_and_range(capsys: pytest.CaptureFixture[str]) -> Non
 def test_all_that_the_list_says_can_be_read_on_a_terminal_of_80_columns(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("shearbox_tools.table._console", lambda: Console(width=80))
+    monkeypatch.setattr("shearbox_tools.commands.listing._console", lambda: Console(width=80))
     print_parameters()
     said = capsys.readouterr().out
     assert max(map(len, said.splitlines())) <= 80
@@ -215,13 +215,14 @@ def test_the_folder_is_needed(tmp_path: Path) -> None:
 def test_a_bad_file_among_the_models_costs_no_other(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    from shearbox_tools import models, table
+    from shearbox_tools.asking import models
+    from shearbox_tools.commands import listing
 
     for name in (f"{MODEL}.in", "TypeB_15x5_4-8_1-circle_550.in"):
         (tmp_path / name).write_bytes((INPUT / "models" / name).read_bytes())
     (tmp_path / "bad.in").write_text("variable width index 10 cm\n", encoding="utf-8")
-    monkeypatch.setattr(table, "model_files", lambda: models.model_files(tmp_path))
-    table.print_models()
+    monkeypatch.setattr(listing, "model_files", lambda: models.model_files(tmp_path))
+    listing.print_models()
     said = capsys.readouterr().out
     assert MODEL in said and "TypeB_15x5" in said
     assert "bad.in: 'variable NAME index VALUE' is expected, not 'variable width index 10 cm'" in said.replace("\n", "")
@@ -243,8 +244,8 @@ def test_what_is_wrong_in_the_deck_is_named(
 ) -> None:
     path = tmp_path / "parameters.in"
     path.write_text(PARAMETERS.read_text(encoding="utf-8").replace(old, new), encoding="utf-8")
-    monkeypatch.setattr("shearbox_tools.checks.PARAMETERS", path)
-    monkeypatch.setattr("shearbox_tools.checks.parameters", lambda: parameters(path))
+    monkeypatch.setattr("shearbox_tools.running.checks.PARAMETERS", path)
+    monkeypatch.setattr("shearbox_tools.running.checks.parameters", lambda: parameters(path))
     with pytest.raises(ShearboxError) as error:
         check(Request(find_model(MODEL), (100.0,)))
     assert message in str(error.value)

@@ -7,12 +7,12 @@ from pathlib import Path
 import pytest
 import synthetic
 
-from shearbox_tools.checks import check
-from shearbox_tools.errors import InputError
-from shearbox_tools.models import INPUT, find_model, read_model
-from shearbox_tools.phases import packing, shearing
-from shearbox_tools.readers import BED, read_row
-from shearbox_tools.request import Request
+from shearbox_tools.asking.models import INPUT, find_model, read_model
+from shearbox_tools.asking.request import Request
+from shearbox_tools.base.errors import InputError
+from shearbox_tools.reading.readers import BED, read_row
+from shearbox_tools.running.checks import check
+from shearbox_tools.running.phases import packing, shearing
 
 HEADER = "# step displacement_mm tau_kPa\n"
 TABLE = ",".join(BED) + "\n" + ",".join("1" * len(BED)) + "\n"
@@ -55,7 +55,7 @@ def test_a_table_is_read_again_only_when_it_has_changed(tmp_path: Path, monkeypa
         read.append(path)
         return read_row(path)
 
-    monkeypatch.setattr("shearbox_tools.phases.read_row", note)
+    monkeypatch.setattr("shearbox_tools.running.phases.read_row", note)
     phase = packing(tmp_path, request())
     phase.folder.mkdir()
     table = phase.folder / "packed.csv"

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 from synthetic import correlated_noise
 
-from shearbox_tools.peak import Peak
-from shearbox_tools.plane import OnPlane, line_on_plane, on_plane
-from shearbox_tools.polynomial import fit_curve
+from shearbox_tools.analysis.peak import Peak
+from shearbox_tools.analysis.plane import OnPlane, line_on_plane, on_plane
+from shearbox_tools.analysis.polynomial import fit_curve
 
 S = np.linspace(0.01, 8, 800)
 

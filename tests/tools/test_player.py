@@ -11,13 +11,13 @@ import pytest
 import synthetic
 from browser import needs_browser, told
 
-from shearbox_tools import player
-from shearbox_tools.models import find_model
-from shearbox_tools.paints import COLUMNS, grain_areas, mean_stress
-from shearbox_tools.report import report
-from shearbox_tools.request import Request
-from shearbox_tools.results import read_results
-from shearbox_tools.specimen import Film, Moment
+from shearbox_tools.analysis.moments import Film, Moment
+from shearbox_tools.analysis.results import read_results
+from shearbox_tools.asking.models import find_model
+from shearbox_tools.asking.request import Request
+from shearbox_tools.drawing.paints import COLUMNS, grain_areas, mean_stress
+from shearbox_tools.reports import player
+from shearbox_tools.reports.run_report import report
 
 pytestmark = needs_browser
 

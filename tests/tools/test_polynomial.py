@@ -6,8 +6,8 @@ import pytest
 from numpy.polynomial.polyutils import mapdomain
 from synthetic import correlated_noise, softening
 
-from shearbox_tools.peak import find_peak, maxima
-from shearbox_tools.polynomial import DEGREES, block_averages, correlation_length, end_zone, fit_curve
+from shearbox_tools.analysis.peak import find_peak, maxima
+from shearbox_tools.analysis.polynomial import DEGREES, block_averages, correlation_length, end_zone, fit_curve
 
 TRAVEL = 8.0
 ROWS = 800

@@ -30,7 +30,7 @@ def _test(tmp_path_factory: pytest.TempPathFactory) -> shearbox.Test:
 @pytest.mark.usefixtures("undrawn")
 def test_the_example_of_the_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("shearbox_tools.run.default_program", lambda host: ENGINE)
+    monkeypatch.setattr("shearbox_tools.commands.run.default_program", lambda host: ENGINE)
     assert shearbox.__doc__
     example = re.search(r"::\n\n((?:    .*\n|\n)+)", shearbox.__doc__)
     assert example and "shearbox.run(" in example[1]

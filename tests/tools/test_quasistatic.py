@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from shearbox_tools.quasistatic import Inertia, imbalance_percent, inertial_number
+from shearbox_tools.analysis.quasistatic import Inertia, imbalance_percent, inertial_number
 
 DIAMETER = 5e-3
 AREA = np.pi * DIAMETER**2 / 4

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 import synthetic
 
-from shearbox_tools.dumps import CELLS, CONTACTS, DISCS, GRAINS, Dump
-from shearbox_tools.errors import ShearboxError
-from shearbox_tools.logs import read_log
-from shearbox_tools.readers import BED, last_value, read_row, read_shear
+from shearbox_tools.base.errors import ShearboxError
+from shearbox_tools.base.logs import read_log
+from shearbox_tools.reading.dumps import CELLS, CONTACTS, DISCS, GRAINS, Dump
+from shearbox_tools.reading.readers import BED, last_value, read_row, read_shear
 
 EVERY = {"grains": GRAINS, "discs": DISCS, "contacts": CONTACTS, "cells": CELLS}
 

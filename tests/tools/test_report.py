@@ -10,17 +10,17 @@ import numpy as np
 import pytest
 import synthetic
 
-from shearbox_tools.cli import main
-from shearbox_tools import curves
-from shearbox_tools.models import find_model
-from shearbox_tools.notes import said_once
-from shearbox_tools.page import minus, number, signs
-from shearbox_tools.report import report
-from shearbox_tools.request import Request
-from shearbox_tools.results import read_results
-from shearbox_tools.specimen import Film, count_lost, stress_tilt
-from shearbox_tools.style import PAPER_LOOKS, looks
-from shearbox_tools.summary import summarise
+from shearbox_tools.analysis.moments import Film, count_lost, stress_tilt
+from shearbox_tools.analysis.results import read_results
+from shearbox_tools.asking.models import find_model
+from shearbox_tools.asking.request import Request
+from shearbox_tools.base.notes import said_once
+from shearbox_tools.commands.cli import main
+from shearbox_tools.drawing import curves
+from shearbox_tools.drawing.style import PAPER_LOOKS, looks
+from shearbox_tools.reports.page import minus, number, signs
+from shearbox_tools.reports.run_report import report
+from shearbox_tools.reports.summary import summarise
 
 STRESSES = (100.0, 200.0)
 STEPS = [0, 2000000, 4000000]

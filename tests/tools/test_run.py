@@ -16,18 +16,19 @@ from pathlib import Path
 import pytest
 from command import MODEL, SHEARBOX, TESTS, command, shearbox, wait_for
 from rich.console import Console
-from shearbox_tools import cli, reading
-from shearbox_tools.campaign import Campaign
-from shearbox_tools.display import Whole, make_display
-from shearbox_tools.engine import Engine
-from shearbox_tools.lock import locked
-from shearbox_tools.models import INPUT, find_model
-from shearbox_tools.named import model_text
-from shearbox_tools.phases import packing
-from shearbox_tools.presets import DENSITIES, SPEEDS
-from shearbox_tools.request import Request
-from shearbox_tools.restarts import step_of
-from shearbox_tools.specimens import Run
+from shearbox_tools.analysis import read_runs
+from shearbox_tools.asking.models import INPUT, find_model
+from shearbox_tools.asking.named import model_text
+from shearbox_tools.asking.request import Request
+from shearbox_tools.base.lock import locked
+from shearbox_tools.base.presets import DENSITIES, SPEEDS
+from shearbox_tools.base.restarts import step_of
+from shearbox_tools.commands import cli
+from shearbox_tools.running.campaign import Campaign
+from shearbox_tools.running.display import Whole, make_display
+from shearbox_tools.running.engine import Engine
+from shearbox_tools.running.phases import packing
+from shearbox_tools.running.run_folders import Run
 
 
 def summary(folder: Path) -> dict:
@@ -125,7 +126,7 @@ def test_under_nohup_a_hang_up_stops_nothing(folder: Path) -> None:
 def test_processes_that_read_runs_ignore_what_was_ignored_before_them() -> None:
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
     try:
-        with ProcessPoolExecutor(1, initializer=reading._end_at_once) as pool:
+        with ProcessPoolExecutor(1, initializer=read_runs._end_at_once) as pool:
             heard = [pool.submit(signal.getsignal, sign).result() for sign in (signal.SIGHUP, signal.SIGTERM)]
     finally:
         signal.signal(signal.SIGHUP, before)
@@ -190,7 +191,7 @@ def test_ranks_are_asked_to_end_once_they_listen(folder: Path, tmp_path: Path, l
 
 def test_what_has_not_heard_is_asked_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """An engine that hears the second signal only."""
-    monkeypatch.setattr("shearbox_tools.campaign.SECONDS_TO_ASK_AGAIN", 0.5)
+    monkeypatch.setattr("shearbox_tools.running.campaign.SECONDS_TO_ASK_AGAIN", 0.5)
     deaf, begun = tmp_path / "deaf", tmp_path / "begun"
     deaf.write_text(
         "#!/bin/bash\ntrap 'trap \"exit 0\" USR1' USR1\n" + f"touch {begun}\nwhile true; do sleep 0.1; done\n",
@@ -371,7 +372,7 @@ def test_accuracy_sets_the_speed_that_is_not_given(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, options: list[str], speed: float
 ) -> None:
     given: list[dict] = []
-    monkeypatch.setattr("shearbox_tools.run.run", lambda options, asked: given.extend(asked))
+    monkeypatch.setattr("shearbox_tools.commands.run.run", lambda options, asked: given.extend(asked))
     assert cli.main(["run", MODEL, "--out", str(tmp_path), *options]) == 0
     assert given[0].get("speed", Request.speed) == speed
 

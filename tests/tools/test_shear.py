@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from synthetic import GRAINS, correlated_noise, curves
 
-from shearbox_tools.motion import full_speed
-from shearbox_tools.readers import Columns
-from shearbox_tools.shear import Shear, analyse
+from shearbox_tools.analysis.motion import full_speed
+from shearbox_tools.analysis.shear import Shear, analyse
+from shearbox_tools.reading.readers import Columns
 
 BED = {"grains": GRAINS, "height_m": 0.0987, "solid_fraction": 0.835}
 S = curves(200, 8)["displacement_mm"]

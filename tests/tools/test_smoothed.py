@@ -6,8 +6,8 @@ import pytest
 from scipy.signal import savgol_filter
 from synthetic import correlated_noise, softening
 
-from shearbox_tools.peak import Peak
-from shearbox_tools.smoothed import find_smoothed_peak, smooth
+from shearbox_tools.analysis.peak import Peak
+from shearbox_tools.analysis.smoothed import find_smoothed_peak, smooth
 
 ROWS = 800
 S = (np.arange(ROWS) + 0.5) / 100  # to 8 mm

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from shearbox_tools.models import find_model, model_files
-from shearbox_tools.request import Request
-from shearbox_tools.strength import fit_line, known_scatter
+from shearbox_tools.analysis.strength import fit_line, known_scatter
+from shearbox_tools.asking.models import find_model, model_files
+from shearbox_tools.asking.request import Request
 
 SIGMA = np.array([100.0, 200, 300, 400])
 

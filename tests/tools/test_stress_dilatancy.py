@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from synthetic import correlated_noise
 
-from shearbox_tools.stress_dilatancy import Dilatant, rowe_ratio, ultimate
+from shearbox_tools.analysis.stress_dilatancy import Dilatant, rowe_ratio, ultimate
 
 
 def on_the_plane_of_no_extension(phi: float, psi: float) -> tuple[float, float]:

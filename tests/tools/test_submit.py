@@ -11,15 +11,15 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from shearbox_tools.cli import main
-from shearbox_tools.cluster import Cluster, read_cluster
-from shearbox_tools.errors import InputError
-from shearbox_tools.jobs import name_of
-from shearbox_tools.layout import Layout
-from shearbox_tools.models import find_model
-from shearbox_tools.request import Request
-from shearbox_tools.schedulers import Job, find_scheduler
-from shearbox_tools.specimens import Run, planned
+from shearbox_tools.asking.models import find_model
+from shearbox_tools.asking.request import Request
+from shearbox_tools.base.errors import InputError
+from shearbox_tools.commands.cli import main
+from shearbox_tools.jobs.cluster import Cluster, read_cluster
+from shearbox_tools.jobs.layout import Layout
+from shearbox_tools.jobs.schedulers import Job, find_scheduler
+from shearbox_tools.jobs.submitted import name_of
+from shearbox_tools.running.run_folders import Run, planned
 
 ROOT = Path(__file__).resolve().parents[2]
 SHEARBOX = ROOT / "tools" / "shearbox"
@@ -197,10 +197,12 @@ def test_what_is_submitted_again_is_told_with_what_was_done_and_by_its_own_words
     log = folder / "jobs" / "tests_1.log"
     with log.open("a", encoding="utf-8") as stream:
         stream.write("seed_1 shear 100 kPa: done in 4 s\n")
-    monkeypatch.setattr("shearbox_tools.submit.all_phases", lambda place, request: Done(place.name == "seed_1").phases)
+    monkeypatch.setattr(
+        "shearbox_tools.commands.submit.all_phases", lambda place, request: Done(place.name == "seed_1").phases
+    )
     given = [MODEL, "--out", str(folder), "--engine", "/bin/true", "--seeds", "2"]
     assert main(["submit", *given]) == 0
-    monkeypatch.setattr("shearbox_tools.status.Forecast", lambda place, request: Done(place.name == "seed_1"))
+    monkeypatch.setattr("shearbox_tools.commands.status.Forecast", lambda place, request: Done(place.name == "seed_1"))
     capsys.readouterr()
     assert main(["status", str(folder)]) == 0
     assert capsys.readouterr().out.splitlines() == [

@@ -3,7 +3,7 @@
 
 import pytest
 
-from shearbox_tools.verdict import Verdict, of_all, told_apart
+from shearbox_tools.base.verdict import Verdict, of_all, told_apart
 
 
 @pytest.mark.parametrize(

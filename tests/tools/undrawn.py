@@ -7,7 +7,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-REPORTING = "shearbox_tools.reporting"
+REPORTING = "shearbox_tools.reports.report_on"
 
 
 class Undrawn(dict[str, str]):
@@ -23,17 +23,17 @@ DRAWING = {
 
 
 def report_on(*words: Any, **options: Any) -> Path:
-    """In place of that of reporting.py, which is loaded when there is something to report, as ever."""
+    """In place of that of report_on.py, which is loaded when there is something to report, as ever."""
     del sys.modules[REPORTING]
-    from shearbox_tools import report, reporting
+    from shearbox_tools.reports import report_on, run_report
 
-    vars(report).update(DRAWING)
-    return reporting.report_on(*words, **options)
+    vars(run_report).update(DRAWING)
+    return report_on.report_on(*words, **options)
 
 
 if __name__ == "__main__":
     sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
-    from shearbox_tools.cli import main
+    from shearbox_tools.commands.cli import main
 
     sys.modules[REPORTING] = SimpleNamespace(report_on=report_on)  # type: ignore[assignment]
     sys.exit(main())

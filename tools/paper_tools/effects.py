@@ -2,7 +2,7 @@
 """Effects with 95 % intervals, and what they say of a claim.
 
 Specimens with packings of their own are independent samples; an effect is a mean over them, a difference of two
-(shearbox_tools/differences.py), a share, or one over several groups (over_groups.py). What is told of the same packings, sheared in
+(shearbox_tools/analysis/differences.py), a share, or one over several groups (over_groups.py). What is told of the same packings, sheared in
 different ways, is told packing by packing.
 """
 
@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
-from shearbox_tools import differences
-from shearbox_tools.strength import COVERAGE
+from shearbox_tools.analysis import differences
+from shearbox_tools.analysis.strength import COVERAGE
 
 CONFIRMED, CONTRADICTED, OPEN = "confirmed", "contradicted", "open"
 

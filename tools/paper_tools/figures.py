@@ -11,9 +11,9 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from shearbox_tools.files import write_text
-from shearbox_tools.mean_curve import Band, MeanCurve, as_csv, band_of
-from shearbox_tools.style import AXIS_COLOUR, OTHER_LOOKS, RC, SIZE, Look, diagram, looks, name_stresses
+from shearbox_tools.analysis.mean_curve import Band, MeanCurve, as_csv, band_of
+from shearbox_tools.base.files import write_text
+from shearbox_tools.drawing.style import AXIS_COLOUR, OTHER_LOOKS, RC, SIZE, Look, diagram, looks, name_stresses
 
 from .findings import BOXES, COARSE, FINE, FINEST, TRIPLE
 from .specimens import CURVES, PLACES, Group

@@ -15,8 +15,8 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from shearbox_tools.files import write_text
-from shearbox_tools.style import OTHER_LOOKS, RC
+from shearbox_tools.base.files import write_text
+from shearbox_tools.drawing.style import OTHER_LOOKS, RC
 
 from .effects import Effect, difference, mean, paired, slope_of_each, unknown
 from .figures import legend_above

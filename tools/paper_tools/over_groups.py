@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy import stats
 
-from shearbox_tools.strength import COVERAGE
+from shearbox_tools.analysis.strength import COVERAGE
 
 from .effects import Effect, effect_of, mean, unknown
 

@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from shearbox_tools.files import write_json, write_text
-from shearbox_tools.page import TEMPLATES, environment
-from shearbox_tools.page import number as number_of
-from shearbox_tools.summary import plain
+from shearbox_tools.base.files import write_json, write_text
+from shearbox_tools.reports.page import TEMPLATES, environment
+from shearbox_tools.reports.page import number as number_of
+from shearbox_tools.reports.summary import plain
 
 from .effects import Effect, mean
 from .findings import Finding

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from shearbox_tools.errors import InputError
-from shearbox_tools.files import write_text
+from shearbox_tools.base.errors import InputError
+from shearbox_tools.base.files import write_text
 
 from .specimens import CURVES, JUDGED, NUMBERS, PLACES, STRENGTHS, Numbers, Specimen
 

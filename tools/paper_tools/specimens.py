@@ -6,17 +6,17 @@ from pathlib import Path
 
 import numpy as np
 
-from shearbox_tools.differences import mean_angle
-from shearbox_tools.ensemble import lines_of
-from shearbox_tools.ensemble_results import FEATURES, holds_in
-from shearbox_tools.grouping import LeftOut
-from shearbox_tools.peak import steepest
-from shearbox_tools.reading import read_all, read_quietly
-from shearbox_tools.results import Results
-from shearbox_tools.shear import LARGEST_ERROR_PERCENT, Shear
-from shearbox_tools.specimens import find_runs
-from shearbox_tools.stress_dilatancy import ultimate_rows
-from shearbox_tools.timings import read_timings
+from shearbox_tools.analysis.differences import mean_angle
+from shearbox_tools.analysis.ensemble import lines_of
+from shearbox_tools.analysis.ensemble_results import FEATURES, holds_in
+from shearbox_tools.analysis.grouping import LeftOut
+from shearbox_tools.analysis.peak import steepest
+from shearbox_tools.analysis.read_runs import read_all, read_quietly
+from shearbox_tools.analysis.results import Results
+from shearbox_tools.analysis.shear import LARGEST_ERROR_PERCENT, Shear
+from shearbox_tools.analysis.stress_dilatancy import ultimate_rows
+from shearbox_tools.base.timings import read_timings
+from shearbox_tools.running.run_folders import find_runs
 
 Numbers = dict[str, float]
 

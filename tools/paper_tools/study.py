@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from shearbox_tools import __version__
-from shearbox_tools.errors import ShearboxError
+from shearbox_tools.base.errors import ShearboxError
 
 from .figures import draw
 from .findings import Finding, findings, halves_agree, of_the_laws

@@ -25,8 +25,8 @@ sys.path.insert(0, str(ROOT / "tools"))
 import engine  # noqa: E402
 from engine import Disc, Frame, run  # noqa: E402
 from scenes import circling, oblique_pairs  # noqa: E402
-from shearbox_tools.presets import LAWS  # noqa: E402
-from shearbox_tools.readers import read_shear  # noqa: E402
+from shearbox_tools.base.presets import LAWS  # noqa: E402
+from shearbox_tools.reading.readers import read_shear  # noqa: E402
 
 engine.TIMEOUT = 3600  # s
 

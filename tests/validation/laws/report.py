@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 
 sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests")]
 import tables  # noqa: E402
-from shearbox_tools.style import OTHER_LOOKS, RC  # noqa: E402
+from shearbox_tools.drawing.style import OTHER_LOOKS, RC  # noqa: E402
 
 COLOURS = {"direct": "#111111", "incremental": OTHER_LOOKS[0].colour}
 Found = list[tuple[Job, Values]]
