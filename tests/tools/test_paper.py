@@ -130,12 +130,14 @@ def test_what_cannot_be_judged_does_not_count() -> None:
     assert all(effect.count == 0 for one in by_plane for effect in one.effects)
 
 
-def sweep_of(tmp_path: Path, apart: float, **more: float) -> Study:
+def sweep_of(tmp_path: Path, apart: float, alike: int = 0, **more: float) -> Study:
     """Friction angles of 0, 27 and 35 degrees, whose packings have the same seeds and solid fractions that differ by `apart`: phi is that
     of the packing and 0.1 for each degree."""
 
     def some(value: float, seeds: Iterable[int]) -> Group:
-        tests = [(k, dict.fromkeys(NUMBERS, 1.0) | {"solid": 0.8 + 0.01 * k + apart * value}) for k in seeds]
+        tests = [
+            (k, dict.fromkeys(NUMBERS, 1.0) | {"solid": 0.8 + 0.01 * k + apart * value * (k != alike)}) for k in seeds
+        ]
         of_packing = {k: 20 + 3 * k + 0.1 * value for k, _ in tests}
         return Group("", "", 20, [specimen(k, {100.0: t, 200.0: t}, of_packing[k], **more) for k, t in tests])
 
@@ -164,6 +166,38 @@ def test_the_same_packings_are_compared_packing_by_packing(tmp_path: Path, apart
     ends = ("", "_low", "_high", "_specimens")
     assert [change[f"phi_change{end}"] for end in ends] == pytest.approx([0.8, 0.8, 0.8, 4])
     assert np.isnan(rows["27"]["phi_change"])
+
+
+def test_one_packing_that_is_alike_is_chance(tmp_path: Path) -> None:
+    """Seed 2 has the same solid fraction at all friction angles, others have not: they are independent."""
+    found = sweep_of(tmp_path, 1e-3, alike=2)
+    (trend,) = [effect for name, effect in found.trends if name == "phi"]
+    assert trend.count > 4
+
+
+def test_what_is_read_at_peaks_that_polynomials_miss_is_not_known() -> None:
+    test = dict.fromkeys(NUMBERS, 1.0)
+    every = [specimen(k, {100.0: test, 200.0: test | {"peak_smoothed": missed}}) for k, missed in ((1, 1.0), (2, 1.4))]
+    some = Group("", "", 20, every)
+    assert [len(some.values(name)) for name in ("phi", "peak", "sharpness", "mean", "trm")] == [1, 1, 1, 2, 2]
+    assert (len(some.at(100.0, "peak")), len(some.at(200.0, "peak"))) == (2, 1)
+
+
+def test_the_findings_kept_are_those_of_the_tables_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What examples/paper says can be made again from its tables, which have five digits."""
+    measured_there = PAPER.parents[1] / "examples" / "paper" / "measured"
+    monkeypatch.setattr("paper_tools.study.print_page", lambda page: None)
+    report(tmp_path, read_record(measured_there))
+    made, kept = (json.loads((of / "findings.json").read_text(encoding="utf-8")) for of in (tmp_path, measured_there))
+    for walls, found in kept.items():
+        for one, other in zip(found, made[walls], strict=True):
+            assert (one["claim"], one["verdict"]) == (other["claim"], other["verdict"])
+            for effect, again in zip(one["effects"], other["effects"], strict=True):
+                assert effect["label"] == again["label"]
+                values = [
+                    [-1 if e[k] is None else e[k] for k in ("count", "value", "low", "high")] for e in (effect, again)
+                ]
+                assert values[0] == pytest.approx(values[1], rel=2e-3, abs=2e-3)
 
 
 def test_a_diagram_with_one_value_is_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -19,7 +19,7 @@ class Undrawn(dict[str, str]):
 
 DRAWING = {
     name: lambda *_: Undrawn() for name in ("_diagrams", "draw_specimens", "draw_maps", "film_of")
-}  # of the module report
+}  # of the module run_report
 
 
 def report_on(*words: Any, **options: Any) -> Path:

@@ -143,7 +143,7 @@ def _points(group: Group, by: str) -> list[tuple[int, float, float, float]]:
     """How many specimens, mean normal and shear stress (kPa) at the peaks, and the standard error of the latter, by stress."""
     points = []
     for sigma in group.stresses:
-        tests = [one.tests[sigma] for one in group.specimens if sigma in one.tests]
+        tests = group.tests_at(sigma)
         if by == "lid":
             peaks = np.array([(sigma, sigma * test["peak"]) for test in tests])
         else:

@@ -145,7 +145,9 @@ def _lines(groups: list[tuple[float, Group]], name: str) -> list[tuple[np.ndarra
 def _shared(one: Group, other: Group) -> list[int]:
     """Seeds of which both have the same packing. Other grains, or other contacts while they are packed, make another one."""
     solid = {of.seed: of.mean("solid") for of in one.specimens}
-    return [of.seed for of in other.specimens if abs(solid.get(of.seed, np.nan) - of.mean("solid")) < SAME_SOLID]
+    common = [of for of in other.specimens if of.seed in solid]
+    same = [of.seed for of in common if abs(solid[of.seed] - of.mean("solid")) < SAME_SOLID]
+    return same if len(same) == len(common) else []  # of one of several it may be chance
 
 
 def _change(base: Point | None, point: Point, name: str) -> Effect:

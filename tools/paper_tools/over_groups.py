@@ -15,6 +15,8 @@ from shearbox_tools.analysis.strength import COVERAGE
 
 from .effects import Effect, effect_of, mean, unknown
 
+DIFFER, BENT = "these differ", "not on a line"  # what labels say where groups are apart
+
 
 def common_difference(label: str, pairs: Sequence[tuple[np.ndarray, np.ndarray]]) -> Effect:
     """Mean of the second less that of the first, of several boxes together, each with a mean of its own: the differences of the boxes,
@@ -27,18 +29,19 @@ def common_difference(label: str, pairs: Sequence[tuple[np.ndarray, np.ndarray]]
         return unknown(label)
     parts = [_less(_of(b), _of(a)) for a, b in pairs]
     weights = np.array([1 / (1 / len(a) + 1 / len(b)) for a, b in pairs])
-    return _through(label, np.ones((len(pairs), 1)), parts, weights)
+    return _through(label, np.ones((len(pairs), 1)), parts, weights, DIFFER)
 
 
 def slope(label: str, groups: Sequence[tuple[float, np.ndarray]]) -> Effect:
     """Of a line through groups (x, values): least squares, where all specimens scatter alike. Single specimens, as above."""
     groups = [(x, values) for x, values in groups if len(values)]
-    groups = [(x, values) for x, values in groups if len(values) > 1] or groups
+    several = [(x, values) for x, values in groups if len(values) > 1]
+    groups = several if len({x for x, _ in several}) > 1 else groups
     x = np.array([place for place, _ in groups])
     if len(set(x)) < 2:
         return unknown(label, sum(len(values) for _, values in groups))
     parts, weights = [_of(values) for _, values in groups], np.array([len(values) for _, values in groups])
-    return _through(label, np.column_stack([np.ones(len(x)), x]), parts, weights)
+    return _through(label, np.column_stack([np.ones(len(x)), x]), parts, weights, BENT)
 
 
 def mean_of_groups(label: str, groups: Sequence[np.ndarray]) -> Effect:
@@ -90,18 +93,18 @@ def _sum(label: str, parts: Sequence[_Part], weights: np.ndarray) -> Effect:
     return effect_of(label, sum(p.count for p in parts), value, np.sqrt(variance), _freedom(parts, weights))
 
 
-def _through(label: str, design: np.ndarray, parts: Sequence[_Part], weights: np.ndarray) -> Effect:
+def _through(label: str, design: np.ndarray, parts: Sequence[_Part], weights: np.ndarray, apart: str) -> Effect:
     """The last coefficient of a fit to parts, (parts, coefficients), by weighted least squares.
 
     Its error is that of specimens. Where the parts are further from a fit than their specimens explain, it is that of the parts around
-    it, and the label says so: what is true of the boxes here need not be of others. Two parts tell no scatter: then the interval is from
+    it, if that is larger, and the label says so (`apart`): what is true of the boxes here need not be of others. Two parts tell no scatter: then the interval is from
     the lower end of theirs to the upper one.
     """
     covariance, solve = _solution(design, weights)
     of_specimens = _sum(label, parts, solve[-1])
     if not _are_apart(design, parts):
         return of_specimens
-    label = f"{label}; these differ"
+    label = f"{label}; {apart}"
     if len(parts) == 2:
         own = [effect_of(label, part.count, part.value, np.sqrt(part.variance), part.freedom) for part in parts]
         return replace(of_specimens, label=label, low=min(e.low for e in own), high=max(e.high for e in own))
@@ -109,7 +112,8 @@ def _through(label: str, design: np.ndarray, parts: Sequence[_Part], weights: np
     squares = np.sum(weights * (values - design @ (solve @ values)) ** 2)
     freedom = len(parts) - design.shape[1]
     error = np.sqrt(squares / freedom * covariance[-1, -1])
-    return effect_of(label, of_specimens.count, of_specimens.value, error, freedom)
+    of_parts = effect_of(label, of_specimens.count, of_specimens.value, error, freedom)
+    return max(of_parts, replace(of_specimens, label=label), key=_width)
 
 
 def _solution(design: np.ndarray, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -122,7 +126,7 @@ def _are_apart(design: np.ndarray, parts: Sequence[_Part]) -> bool:
     """Whether no fit goes through all parts, at 5 %: Johansen (Biometrika 67 (1980) 85), for one coefficient Welch's analysis of variance."""
     values, variances, freedoms = np.array([(part.value, part.variance, part.freedom) for part in parts]).T
     q = len(parts) - design.shape[1]
-    if q < 1 or not np.all(variances):
+    if q < 1 or not (np.all(variances) and np.all(freedoms)):
         return False
     _, solve = _solution(design, 1 / variances)
     away = values - design @ (solve @ values)

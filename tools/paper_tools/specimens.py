@@ -74,17 +74,25 @@ class Specimen:
 
     @property
     def is_followed(self) -> bool:
-        """Whether no peak of a polynomial is further from that of the smoothed data than a peak may be uncertain."""
-        most = LARGEST_ERROR_PERCENT / 100
-        return not any(abs(test["peak"] / test["peak_smoothed"] - 1) > most for test in self.tests.values())
+        """Whether the polynomials follow the curves at all stresses."""
+        return all(map(follows, self.tests.values()))
 
     def mean(self, name: str) -> float:
-        """Of a number of NUMBERS, over the stresses; of a strength, itself, where polynomials follow the curves."""
+        """Of a number of NUMBERS, over the stresses; of a strength, itself. What is read at the peaks of polynomials is not known where
+        these do not follow the curves."""
+        if name in (*STRENGTHS, *AT_PEAKS) and not self.is_followed:
+            return np.nan
         if name in STRENGTHS:
-            return float(getattr(self, name)) if self.is_followed else np.nan
+            return float(getattr(self, name))
         return float(np.mean([numbers[name] for numbers in self.tests.values()]))
 
 
+def follows(test: Numbers) -> bool:
+    """Whether the peak of the polynomial is no further from that of the smoothed data than a peak may be uncertain."""
+    return not abs(test["peak"] / test["peak_smoothed"] - 1) > LARGEST_ERROR_PERCENT / 100
+
+
+AT_PEAKS = ("peak", "peak_mm", "peak_plane", "plane_load", "sharpness", "dilation_deg")
 STRENGTHS = ("phi", "c", "phi_plane", "c_plane")
 ANGLES = ("phi", "phi_plane")  # of slopes
 
@@ -123,9 +131,14 @@ class Group:
         return [one for one in self.specimens if one.curves]
 
     def at(self, sigma: float, name: str) -> np.ndarray:
-        """(specimens,) of a number of NUMBERS, of the tests at one stress (kPa) in which it is known."""
-        values = np.array([one.tests[sigma][name] for one in self.specimens if sigma in one.tests])
+        """(specimens,) of a number of NUMBERS, of the tests at one stress (kPa) in which it is known and their polynomials follow."""
+        values = np.array([test[name] for test in self.tests_at(sigma)])
         return values[np.isfinite(values)]
+
+    def tests_at(self, sigma: float) -> list[Numbers]:
+        """Those at one stress (kPa) whose polynomials follow the curves."""
+        tests = [one.tests[sigma] for one in self.specimens if sigma in one.tests]
+        return [test for test in tests if follows(test)]
 
 
 def read_specimens(folder: Path) -> tuple[dict[str, list[Specimen]], list[LeftOut]]:

@@ -42,7 +42,7 @@ class Shear:
     smoothed: Peak  # of the smoothed data
     inertia: Inertia
     lost: int | None  # grains outside the box in the last frame
-    tilt: float | None  # of the normal stress along the box before shear, as specimen.stress_tilt has it
+    tilt: float | None  # of the normal stress along the box before shear, as moments.stress_tilt has it
 
     @property
     def reached(self) -> float:
