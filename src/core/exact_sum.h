@@ -12,7 +12,7 @@
 
 namespace cdem {
 
-// The power of 2 below |x|; 1 of 0 or what is not finite. Divided by it no bit is lost.
+// The largest power of 2 that is not above |x|; 1 if x is 0 or not finite. Division by it loses no bit.
 inline double binade(double x) {
   x = std::fabs(x);
   return x > 0 && std::isfinite(x) ? std::ldexp(1, std::ilogb(x)) : 1;

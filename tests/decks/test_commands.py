@@ -26,7 +26,7 @@ def refused(deck: str, folder: Path) -> str:
 def test_contacts_cannot_lose_their_memory(tmp_path: Path) -> None:
     """The fix that pair style cdem made is not the user's to remove."""
     error = refused(HEAD + "run 1\nunfix CDEM_HISTORY\nrun 1\n", tmp_path)
-    assert "fix CDEM_HISTORY, which has the memory of the contacts, was removed; unfix it never" in error
+    assert "fix CDEM_HISTORY, which has the memory of the contacts, was removed: do not unfix it" in error
 
 
 def test_run_style_respa_is_refused(tmp_path: Path) -> None:

@@ -115,6 +115,13 @@ def test_two_ranks(tmp_path: Path) -> None:
     assert table(tmp_path / "run", 100)["sigma_kPa"].mean() == pytest.approx(100, rel=0.01)
 
 
+def test_a_packing_that_is_too_long_says_how_far_it_is(tmp_path: Path) -> None:
+    words = command(tmp_path / "run", *SIDES, "longest=1000", "--stress", "100")
+    failed = subprocess.run(words, capture_output=True, text=True, timeout=300)
+    assert failed.returncode != 0
+    assert "the grains do not bear the lid after 1000 steps of compaction: it feels" in failed.stderr
+
+
 def test_without_liggghts(tmp_path: Path) -> None:
     """What is missing, before anything is written."""
     path = {"PATH": f"{tmp_path}:/nowhere"}

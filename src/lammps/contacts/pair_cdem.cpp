@@ -160,7 +160,7 @@ void PairCDEM::init_style() {
   check_periods();
   Shearbox::request_half_size_list(lmp, this, instance_me);
   if (history && !Shearbox::fix_by_id(lmp, FixCDEMHistory::ID))
-    error->all(FLERR, "Pair style cdem: fix {}, which has the memory of the contacts, was removed; unfix it never",
+    error->all(FLERR, "Pair style cdem: fix {}, which has the memory of the contacts, was removed: do not unfix it",
                FixCDEMHistory::ID);
   if (!history)
     history = static_cast<FixCDEMHistory *>(modify->add_fix(std::string(FixCDEMHistory::ID) + " all cdem/history"));
@@ -252,9 +252,10 @@ void PairCDEM::compute(int eflag, int vflag) {
   const bool rebuilt = neighbor->ago == 0;
   if (rebuilt) {
     check_atoms();
-    check_turning_walls();
     rows.map();
   }
+  if (rebuilt || update->ntimestep == update->firststep + 1) // a fix that turns them has given them a spin by then
+    check_turning_walls();
 
   // During a step, v and omega are those of the half step; at setup they are those of the full step.
   rows.fill(0, atom->nlocal, update->setupflag ? 0 : grains->step_rule().forward);

@@ -47,7 +47,7 @@ public:
   void restart(char *) override;
 
   Books all() const;   // of all ranks
-  void take_gravity(); // to be called as it may have changed: from then on the work of the new one is counted
+  void take_gravity(); // to be called when gravity may have changed: its work is counted from then on
 
   Opener *opener = nullptr;
   Books books;

@@ -121,18 +121,30 @@ bool FixCDEMGrains::scene_is_as_kept() {
 }
 
 bool FixCDEMGrains::moved_against_each_other() const {
-  double far[4] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY}, all[4]; // x, -x, y, -y
+  const auto [x0, y0] = shift_of_first();
+  double mine = 0, most;
   for (int i = 0; i < atom->nlocal; i++) {
-    const Shift shift = shift_from_kept(i);
-    if (!is_free(i) || std::isnan(shift.x)) // NaN: it has come since
-      continue;
-    const double of[4] = {shift.x, -shift.x, shift.y, -shift.y};
-    for (int k = 0; k < 4; k++)
-      far[k] = std::max(far[k], of[k]);
+    const Shift other = less_periods(atom->x[i][0] - state[i][X] - x0, atom->x[i][1] - state[i][Y] - y0);
+    if (is_free(i) && !std::isnan(other.x)) // NaN: it has come since
+      mine = std::max({mine, std::fabs(other.x), std::fabs(other.y)});
   }
-  MPI_Allreduce(far, all, 4, MPI_DOUBLE, MPI_MAX, world);
-  const double most = 2 * rounding();
-  return all[0] + all[1] > most || all[2] + all[3] > most;
+  MPI_Allreduce(&mine, &most, 1, MPI_DOUBLE, MPI_MAX, world);
+  return most > 2 * rounding();
+}
+
+// How far one grain has moved, the same for all ranks: the first of the lowest rank that has any (m).
+std::array<double, 2> FixCDEMGrains::shift_of_first() const {
+  std::array<double, 2> shift{0, 0};
+  int mine = comm->nprocs, first;
+  for (int i = 0; i < atom->nlocal && mine == comm->nprocs; i++)
+    if (is_free(i) && !std::isnan(state[i][X])) {
+      shift = {atom->x[i][0] - state[i][X], atom->x[i][1] - state[i][Y]};
+      mine = comm->me;
+    }
+  MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, world);
+  if (first < comm->nprocs)
+    MPI_Bcast(shift.data(), 2, MPI_DOUBLE, first, world);
+  return shift;
 }
 
 std::uint64_t FixCDEMGrains::members() const {
@@ -159,8 +171,12 @@ FixCDEMGrains::Periods FixCDEMGrains::periods() const {
 }
 
 FixCDEMGrains::Shift FixCDEMGrains::shift_from_kept(int i) const {
+  return less_periods(atom->x[i][0] - state[i][X], atom->x[i][1] - state[i][Y]);
+}
+
+FixCDEMGrains::Shift FixCDEMGrains::less_periods(double dx, double dy) const {
   const Periods period = periods();
-  Shift shift{atom->x[i][0] - state[i][X], atom->x[i][1] - state[i][Y], false};
+  Shift shift{dx, dy, false};
   const double ny = period.y > 0 ? std::nearbyint(shift.y / period.y) : 0;
   shift.y -= ny * period.y;
   shift.x -= ny * period.tilt;

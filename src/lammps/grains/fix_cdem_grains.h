@@ -18,6 +18,7 @@
 #include "atom.h"
 #include "fix.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -75,7 +76,7 @@ public:
   // the box, or by a rounding error (balance shift): then it is put back where it was.
   bool scene_is_as_kept();
   void restore_forces() const;
-  // Whether grains have other places to each other than those that were kept, on all ranks together.
+  // Whether grains have moved relative to each other since their places were kept, on all ranks together.
   bool moved_against_each_other() const;
   // Whether the atoms are not those of the last run, or others are grains, or their types, radii or masses are others:
   // what was prepared for that run is wrong for them. On all ranks together.
@@ -139,7 +140,9 @@ private:
   };
   void keep_forces();
   Periods periods() const;
+  Shift less_periods(double dx, double dy) const;
   Shift shift_from_kept(int i) const;
+  std::array<double, 2> shift_of_first() const;
   double rounding() const;
   std::uint64_t fingerprint_of_grains() const;
   std::uint64_t fingerprint_of_rules() const;
@@ -151,7 +154,7 @@ private:
   std::uint64_t rules = 0, members_of_run = 0;
   bool scene_is_new = false; // a step has been made since it was kept
   struct Kept {              // in restart files
-    static constexpr int VERSION = 2;
+    static constexpr int VERSION = 3;
     std::uint64_t grains = 0, rules = 0; // fingerprints of the scene
     double shapes = 0;
   } kept;

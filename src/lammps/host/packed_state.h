@@ -69,13 +69,14 @@ inline double *begin_atom(double *block, LAMMPS_NS::tagint tag, int count) {
 template <class Count>
 const double *state_of_atom(LAMMPS_NS::LAMMPS *lmp, const char *style, int i, int nth, Count count) {
   const double *block = lmp->atom->extra[i];
-  for (int skip = 0; skip < nth; skip++)
+  for (int skip = 0; skip < nth && int(*block) >= HEAD_OF_ATOM; skip++)
     block += int(*block);
   const double *const numbers = block + HEAD_OF_ATOM;
   if (int(*block) < HEAD_OF_ATOM || int(*block) != HEAD_OF_ATOM + count(numbers))
     lmp->error->one(FLERR,
                     "Fix {}: the restart file has no state of atom {} that this version of Shearbox knows: it was "
-                    "written by another version, or atoms were added since read_restart: for these put 'run 0' before",
+                    "written by another version, or atoms were added after read_restart: put 'run 0' before adding "
+                    "them",
                     style, lmp->atom->tag[i]);
   if (LAMMPS_NS::tagint(LAMMPS_NS::ubuf(block[1]).i) != lmp->atom->tag[i])
     lmp->error->one(FLERR,

@@ -199,19 +199,22 @@ void FixCDEMIntegrate::setup_pre_exchange() {
   goes_on = grains->scene_is_as_kept() && !step.is_to_be_chosen();
   if (!goes_on && grains->moved_against_each_other() && comm->me == 0)
     error->warning(FLERR,
-                   "Fix cdem/integrate {}: grains were moved one against another since the last step, as by set, "
+                   "Fix cdem/integrate {}: grains were moved relative to each other since the last step, as by set, "
                    "displace_atoms or read_dump: contacts keep their springs, and grains their angles",
                    id);
 }
 
 // What follows from atoms and groups is prepared with a setup.
-void FixCDEMIntegrate::refuse_new_members() const {
-  if (grains->has_new_members())
+void FixCDEMIntegrate::check_preparation() {
+  if (!is_prepared && grains->has_new_members())
     error->all(FLERR,
                "Fix cdem/integrate {}: atoms, their group, types, radii or masses have changed since the last run: the "
                "next one must not be 'pre no'",
                id);
+  is_prepared = true;
 }
+
+void FixCDEMIntegrate::post_run() { is_prepared = false; }
 
 void FixCDEMIntegrate::setup_post_neighbor() { post_neighbor(); }
 
@@ -236,7 +239,7 @@ void FixCDEMIntegrate::setup(int) {
   step.compare_with_contacts();
   if (!goes_on)
     take_accelerations();
-  is_first = true;
+  is_first = is_prepared = true;
 }
 
 void FixCDEMIntegrate::take_accelerations() {
@@ -282,10 +285,8 @@ void FixCDEMIntegrate::end_of_step() {
 }
 
 void FixCDEMIntegrate::initial_integrate(int) {
-  const bool without_setup = update->ntimestep == update->firststep + 1 && !is_first;
-  if (without_setup)
-    refuse_new_members();
-  if (update->dt != known_dt) // by timestep, before such a run
+  check_preparation();
+  if (update->dt != known_dt) // by timestep, before a run without a setup
     reset_dt();
   if (guard.is_due())
     guard.check();

@@ -51,7 +51,7 @@
 // so gives the same bits, whatever step number it has (in a periodic box: those of the run that wrote the restart
 // file). Energy and pressure of the contacts are those that setup computes, where dashpots follow other velocities. If
 // anything has been changed since (grains moved, deleted, of another mass or velocity; coefficients, gravity, time
-// step, box) it begins with those of the scene as it is. Where grains were moved one against another, as by set or
+// step, box) it begins with those of the scene as it is. Where grains were moved relative to each other, as by set or
 // read_dump, contacts keep their springs and grains their angles, which a warning tells. A run that is "pre no" must
 // have the atoms, group, types, radii and masses of the one before. The forces of other fixes are taken anew at the
 // start of each run: those that depend on velocities, such as viscous, change the last bits. rerun is refused, and so
@@ -97,6 +97,7 @@ public:
   void pre_reverse(int, int) override;
   void final_integrate() override;
   void end_of_step() override;
+  void post_run() override;
   double compute_scalar() override;
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
@@ -105,6 +106,8 @@ public:
   void restart(char *) override;
 
   bool needs_every_step() const override { return body_forces.books_forces(); }
+  // Ends a run without a setup that is not prepared for the atoms that there are.
+  void check_preparation();
   // Has the neighbour list rebuilt in the next step.
   void rebuild_next() { next_reneighbor = update->ntimestep + 1; }
   // Stability limit of the present contacts (s), all ranks together.
@@ -121,7 +124,6 @@ private:
   void tell_rules();
   void refuse_second_integrator() const;
   void refuse_lost_shapes() const;
-  void refuse_new_members() const;
   void warn_of_belts() const;
   void take_accelerations();
   double smallest_disc() const;
@@ -130,9 +132,10 @@ private:
   DiscPairList *contacts = nullptr;
   FixCDEMGrains *grains = nullptr;
   double inertia_factor = 1;
-  double known_dt = 0;   // s, for which the step has been checked
-  bool goes_on = false;  // the run begins with the forces of the last step
-  bool is_first = false; // the next step is the first of a run
+  double known_dt = 0;      // s, for which the step has been checked
+  bool goes_on = false;     // the run begins with the forces of the last step
+  bool is_first = false;    // the next step is the first after a setup
+  bool is_prepared = false; // this run has been set up, or needs no setup
 };
 
 } // namespace LAMMPS_NS

@@ -2,6 +2,7 @@
 #include "motion/fix_cdem_lid.h"
 
 #include "contacts/pair_cdem.h"
+#include "core/exact_sum.h"
 #include "core/rotation.h"
 #include "grains/fix_cdem_shape.h"
 #include "host/packed_state.h"
@@ -80,6 +81,8 @@ void FixCDEMLid::read_side(Shearbox::DeckWords &words) {
 void FixCDEMLid::init() {
   WallBody::init();
   mass = total_mass();
+  if (stress > 0)
+    force_unit = cdem::unit_for(stress * width * thickness);
   if (!(mass > 0))
     error->all(FLERR, "Fix cdem/lid {}: the mass of group {} is {} kg", id, group->names[igroup], mass);
   if (given_cap == 0)

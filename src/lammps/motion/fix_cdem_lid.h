@@ -24,9 +24,9 @@
 // Of constant volume it is a lid that does not move, whose stress is the force on it: fix cdem/move with speed 0.
 //
 // stress, width and thickness must be given. The mass of the group must be positive; its discs must not be in the group
-// of fix cdem/integrate, nor in that of another fix that moves atoms; fixes that set forces on them, such as setforce,
-// are warned of. Needs dimension 2 and atom_style
-// sphere.
+// of fix cdem/integrate, nor in that of another fix that moves atoms; a warning tells of fixes that set forces on them,
+// such as setforce. Forces are summed to 10^-18 N, or to 40 bits of a load that is less than 10^-6 N. Needs dimension 2
+// and atom_style sphere.
 //
 // Global vector: 1 applied stress (Pa), 2 felt stress = N/(W T) (Pa), 3 place of the inner face (m), for a lid on top
 // the y of its lowest point, which goes on without a jump where the box is periodic along the normal, 4 velocity

@@ -11,8 +11,8 @@
 //   V  speed, may be negative (m/s)      T  ramp, >= 0 (s, default 0: full speed at once)
 //   S  distance at which to stop, > 0 (m, default: none)
 //
-// The discs of the group must not be in the group of fix cdem/integrate, nor in that of another fix of style cdem/move
-// or cdem/lid or of any other that moves atoms. Needs dimension 2 and atom_style sphere.
+// The discs of the group must not be in the group of fix cdem/integrate, nor in that of any other fix
+// that moves atoms. Needs dimension 2 and atom_style sphere.
 //
 // Global vector: 1 displacement s (m), 2 speed (m/s), 3 and 4 force f_x and f_y that the grains exert on the wall (N).
 // s follows the closed form, not a sum of steps. It is rounded to a multiple of 2^-50 m. This is not finer than the

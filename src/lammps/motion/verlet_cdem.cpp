@@ -107,8 +107,10 @@ void VerletCDEM::run(int n) {
   run_start = update->ntimestep;
   const bigint last = run_start + n;
   const bool can_glide = hindrance().empty(); // fix_modify may have changed it before a run without a setup
-  if (can_glide)
-    contacts->take_places(); // commands may have moved atoms, before such a run
+  if (can_glide) {                            // before such a run commands may have moved atoms
+    integrate->check_preparation();
+    contacts->take_places();
+  }
   while (update->ntimestep < last && !stopped()) {
     const bigint look = std::min(last, next_look());
     if (can_glide && glide_to(look))

@@ -58,12 +58,10 @@ void WallBody::init() {
 
 namespace {
 bool sets_forces(const std::string &style) {
-  return utils::strmatch(style, "^setforce") || utils::strmatch(style, "^freeze") ||
-         utils::strmatch(style, "^aveforce");
+  return utils::strmatch(style, "^setforce") || utils::strmatch(style, "^freeze");
 }
 } // namespace
 
-// Fixes that set forces leave nothing of what the grains do.
 void WallBody::refuse_other_movers() const {
   for (int k = 0; k < modify->nfix; k++) {
     const Fix *const other = modify->fix[k];
@@ -74,11 +72,10 @@ void WallBody::refuse_other_movers() const {
     if (n > 0 && moves)
       error->all(FLERR, "Fix {} {}: {} atoms of group {} are also moved by fix {} {}", style, id, n,
                  group->names[igroup], other->style, other->id);
-    if (n > 0 && comm->me == 0)
-      error->warning(FLERR,
-                     "Fix {} {}: fix {} of style {} sets the forces on {} of its atoms: what grains do to them is not "
-                     "felt",
-                     style, id, other->id, other->style, n);
+    if (n > 0 && update->whichflag != 0 && comm->me == 0) // else no run begins
+      error->warning(
+          FLERR, "Fix {} {}: fix {} of style {} sets forces on {} of its atoms: what grains do to them may not be felt",
+          style, id, other->id, other->style, n);
   }
 }
 
@@ -121,7 +118,7 @@ template <class Term> double WallBody::sum_of_small(Term term) const {
 }
 
 double WallBody::total_force(Axis axis) const {
-  return sum([=](int i) { return atom->f[i][axis]; });
+  return sum([=](int i) { return atom->f[i][axis]; }, force_unit);
 }
 
 double WallBody::momentum(Axis axis) const {

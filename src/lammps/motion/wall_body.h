@@ -51,6 +51,7 @@ protected:
   // Sums over the discs (N, kg m/s, kg), with the same bits for any number of ranks. The force is that of the contacts
   // and of all else that writes f.
   double total_force(Axis) const;
+  double force_unit = 1; // in which they are summed, N; see core/exact_sum.h
   double momentum(Axis) const;
   double total_mass() const;
 
