@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Coulomb's line against closed forms and against its own coverage."""
 
-import csv
+import math
 import statistics
 from pathlib import Path
 
@@ -10,6 +10,8 @@ import pytest
 from shearbox_tools.analysis.strength import fit_line, known_scatter
 from shearbox_tools.asking.models import find_model, model_files
 from shearbox_tools.asking.request import Request
+
+from paper_tools.record import read_record
 
 SIGMA = np.array([100.0, 200, 300, 400])
 
@@ -68,15 +70,10 @@ def test_interval_holds_the_truth_in_95_of_100() -> None:
 @pytest.mark.parametrize("model", sorted(path.stem for path in model_files()))
 def test_the_known_scatter_is_that_of_the_study(model: str) -> None:
     """Of the models with four specimens and more whose φ can be told."""
-    table = Path(__file__).resolve().parents[2] / "examples" / "paper" / "measured" / "specimens.csv"
+    study = read_record(Path(__file__).resolve().parents[2] / "examples" / "paper" / "measured")
     kind, _, sizes, discs, _ = model.replace("Type", "").split("_")
     entry = f"{kind}_{sizes}" + "_triple" * (discs == "3-circle")
-    rows = [
-        row
-        for row in csv.DictReader(table.open(encoding="utf-8"))
-        if (row["campaign"], row["entry"]) == ("smooth", entry)
-    ]
-    phi = list({row["seed"]: float(row["phi"]) for row in rows if row["phi"] != "nan"}.values())
+    phi = [known for one in study["smooth"][entry] if math.isfinite(known := one.mean("phi"))]
     said = (
         f"{len(phi)} packings of this model, with the parameters of the decks, had φ from {min(phi):.0f} to {max(phi):.0f}°"
         if len(phi) > 3
