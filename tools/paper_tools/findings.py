@@ -21,7 +21,7 @@ from .effects import (
     unknown,
 )
 from .over_groups import common_difference, mean_of_groups, slope
-from .specimens import Group, Specimen
+from .specimens import Group, Specimen, missed
 
 BOXES = "ABCD"
 WIDTHS = {"A": 10, "B": 15, "C": 20, "D": 30}  # cm
@@ -171,16 +171,12 @@ def _polynomials(groups: Groups) -> Finding:
     """The same peaks as those of the smoothed data, which take no form of the curve for granted."""
     apart = {}
     for group in groups.values():
-        of_specimens = np.array([np.mean([_missed(test) for test in one.tests.values()]) for one in group.specimens])
+        of_specimens = np.array([np.mean([missed(test) for test in one.tests.values()]) for one in group.specimens])
         apart[group.name] = of_specimens[np.isfinite(of_specimens)]
     rows = [mean(name, values) for name, values in apart.items()]
     whole = mean_of_groups("all models", list(apart.values()))
     rule = f"the peak of the polynomial is less than {100 * ALIKE:g} % from that of the smoothed data, in the mean of specimens"
     return Finding("Polynomials find the peak", "5 ④", rule, [whole, *rows], whole.verdict(-1, ALIKE))
-
-
-def _missed(test: Mapping[str, float]) -> float:
-    return abs(test["peak"] / test["peak_smoothed"] - 1)
 
 
 def of_the_laws(direct: Groups, incremental: Groups) -> list[Finding]:

@@ -87,9 +87,14 @@ class Specimen:
         return float(np.mean([numbers[name] for numbers in self.tests.values()]))
 
 
+def missed(test: Numbers) -> float:
+    """How far the peak of the polynomial is from that of the smoothed data, as a share of it."""
+    return abs(test["peak"] / test["peak_smoothed"] - 1)
+
+
 def follows(test: Numbers) -> bool:
-    """Whether the peak of the polynomial is no further from that of the smoothed data than a peak may be uncertain."""
-    return not abs(test["peak"] / test["peak_smoothed"] - 1) > LARGEST_ERROR_PERCENT / 100
+    """Whether that is no more than a peak may be uncertain, as far as it is known."""
+    return not missed(test) > LARGEST_ERROR_PERCENT / 100
 
 
 AT_PEAKS = ("peak", "peak_mm", "peak_plane", "plane_load", "sharpness", "dilation_deg")
