@@ -99,6 +99,12 @@ def test_no_cycle() -> None:
     assert cycle(read_graph()) == []
 
 
+def test_tools_import_each_other_by_place() -> None:
+    """As from ..base.words: what is imported by the name of the whole package is not seen above."""
+    for path in sorted(TOOLS.rglob("*.py")):
+        assert not re.search(r"^\s*(from|import) shearbox_tools", path.read_text(encoding="utf-8"), re.MULTILINE), path
+
+
 def test_core_knows_no_engine() -> None:
     text = "".join(path.read_text(encoding="utf-8") for path in folder_of("core").rglob("*.[hc]*"))
     assert "LAMMPS_NS" not in text
