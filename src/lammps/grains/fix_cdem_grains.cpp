@@ -147,17 +147,22 @@ std::array<double, 2> FixCDEMGrains::shift_of_first() const {
   return shift;
 }
 
+// Of their fingerprints, on all ranks: the same in any order.
+template <class OfAtom> std::uint64_t FixCDEMGrains::sum_over_atoms(OfAtom of_atom) const {
+  std::uint64_t mine = 0, all;
+  for (int i = 0; i < atom->nlocal; i++)
+    mine += of_atom(i).value();
+  MPI_Allreduce(&mine, &all, 1, MPI_UINT64_T, MPI_SUM, world);
+  return all;
+}
+
 std::uint64_t FixCDEMGrains::members() const {
   if (!mover) // fix cdem/integrate is gone: there are no grains
     return 0;
-  std::uint64_t mine = 0, all;
-  for (int i = 0; i < atom->nlocal; i++) {
-    Shearbox::Fingerprint atom_of_list;
-    atom_of_list.add(atom->tag[i]).add(atom->type[i]).add(is_free(i)).add(atom->radius[i]).add(atom->rmass[i]);
-    mine += atom_of_list.value();
-  }
-  MPI_Allreduce(&mine, &all, 1, MPI_UINT64_T, MPI_SUM, world);
-  return all;
+  return sum_over_atoms([this](int i) {
+    Shearbox::Fingerprint of_list;
+    return of_list.add(atom->tag[i]).add(atom->type[i]).add(is_free(i)).add(atom->radius[i]).add(atom->rmass[i]);
+  });
 }
 
 void FixCDEMGrains::post_run() {
@@ -195,18 +200,15 @@ double FixCDEMGrains::rounding() const {
   return 8 * DBL_EPSILON * largest;
 }
 
-// A sum that has the same bits in any order. The place that was kept, since it says which atom it is.
+// The place that was kept, since it says which atom it is.
 std::uint64_t FixCDEMGrains::fingerprint_of_grains() const {
-  std::uint64_t mine = 0, all;
-  for (int i = 0; i < atom->nlocal; i++) {
+  return sum_over_atoms([this](int i) {
     Shearbox::Fingerprint grain;
     for (const double number : {state[i][X], state[i][Y], state[i][ANGLE], atom->v[i][0], atom->v[i][1],
                                 atom->omega[i][2], atom->radius[i], atom->rmass[i]})
       grain.add(number);
-    mine += grain.add(atom->type[i]).add(is_free(i)).value();
-  }
-  MPI_Allreduce(&mine, &all, 1, MPI_UINT64_T, MPI_SUM, world);
-  return all;
+    return grain.add(atom->type[i]).add(is_free(i));
+  });
 }
 
 std::uint64_t FixCDEMGrains::fingerprint_of_rules() const {

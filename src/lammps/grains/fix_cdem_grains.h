@@ -144,6 +144,7 @@ private:
   Shift shift_from_kept(int i) const;
   std::array<double, 2> shift_of_first() const;
   double rounding() const;
+  template <class OfAtom> std::uint64_t sum_over_atoms(OfAtom of_atom) const;
   std::uint64_t fingerprint_of_grains() const;
   std::uint64_t fingerprint_of_rules() const;
   std::uint64_t members() const;
