@@ -17,6 +17,7 @@ from input_decks import INPUT
 
 from shearbox_tools.asking.models import find_model
 from shearbox_tools.asking.named import model_text
+from shearbox_tools.asking.parameters import parameters
 from shearbox_tools.base.files import PACKED_RESTART, PACKED_TABLE
 from shearbox_tools.base.presets import DENSITIES, PACKING_FRICTION
 from shearbox_tools.base.restarts import step_of
@@ -142,6 +143,19 @@ def test_asked_to_end_it_leaves_a_checkpoint(tmp_path: Path) -> None:
     assert read_row(tmp_path / PACKED_TABLE) == read_row(tmp_path / "whole" / PACKED_TABLE)
 
 
+def test_a_default_that_is_given_changes_nothing(tmp_path: Path) -> None:
+    """A deck that had one of its own for a parameter would make another specimen of the value that is listed. The end of packing
+    is one that can be set: ten times as coarse, it comes earlier."""
+    text, options = deck(tmp_path / "given", SMALL)
+    listed: dict[str, Any] = {name: one.value for name, one in parameters().items() if one.value is not None}
+    run(text, tmp_path / "given", **listed | options)
+    given, plain = read_row(tmp_path / "given" / PACKED_TABLE), pack(tmp_path / "plain", SMALL)
+    assert given == plain
+    text, options = deck(tmp_path / "coarse", SMALL)
+    run(text, tmp_path / "coarse", **options, rest_packing=0.1)
+    assert read_row(tmp_path / "coarse" / PACKED_TABLE)["steps"] < plain["steps"]
+
+
 @pytest.mark.parametrize(
     ("longest", "message"),
     [
@@ -156,6 +170,6 @@ def test_a_stage_that_is_too_long_ends_the_run_and_says_how_far_it_is(
 ) -> None:
     """None goes on to the next stage."""
     text, options = deck(tmp_path, "TypeA_4x2_2-4_1-circle_auto")
-    status, output = start(text, tmp_path, **options, longest=longest, rest=1e-7)
+    status, output = start(text, tmp_path, **options, longest=longest, rest_packing=1e-7)
     assert status != 0
     assert len(re.findall("ERROR: " + message, output)) == 1
