@@ -2,7 +2,7 @@
 """What a run will do, about how long that takes, how much it writes, and the memory that it needs.
 
 All times are estimates: steps from the stability limit of the smallest disc and from what packing has taken in boxes up to
-80 cm high (tests/validation/packing); the time of a step from the log of the packing if that is done, else as measured on
+210 cm high (tests/validation/packing); the time of a step from the log of the packing if that is done, else as measured on
 one machine.
 """
 
@@ -25,10 +25,11 @@ from .phases import CONSOLIDATE, PACK, SHEAR, Phase, frames_of, packing, shearin
 SECONDS = {PACK: 45e-9, CONSOLIDATE: 25e-9, SHEAR: 25e-9}  # a disc and step; loose grains need new lists all the time
 SECONDS_PER_DISC_AND_FRAME = 18e-6
 BYTES_PER_DISC, BYTES_PER_RANK = 2.6e3, 45e6  # of memory, half of the former for frames (tests/validation/ranks)
-# for each disc of a grain; a high box takes waves longer to cross, and to come to rest
-STEPS_OF_PACKING, STEPS_PER_DIAMETER, STEPS_OF_CONSOLIDATION = 20_000, 250, 10_000
+# for each disc of a grain; those of packing times the root of the height in smallest grains, as was measured: a high box takes
+# waves longer to cross
+STEPS_OF_PACKING, STEPS_OF_CONSOLIDATION = 6_000, 10_000
 # with a step smaller than usual, over their ratio: stiff contacts need more, large grains that dt_max holds less
-MORE_STEPS = 0.7
+MORE_STEPS = 0.6
 
 
 class Forecast:
@@ -147,7 +148,7 @@ class Forecast:
             return self._request.travel / self._request.speed / self._dt
         steps: float = STEPS_OF_CONSOLIDATION
         if phase.name == PACK:
-            steps = STEPS_OF_PACKING + STEPS_PER_DIAMETER * 2 * model.half_height / model.dmin
+            steps = STEPS_OF_PACKING * math.sqrt(2 * model.half_height / model.dmin)
         return model.discs * steps * max(1.0, MORE_STEPS * _usual_step(self._request) / self._dt)
 
     def _recorded_pace(self) -> float | None:
