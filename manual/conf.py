@@ -8,7 +8,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "tools")]
 
 import mathml  # noqa: E402
-from generate import write_all  # noqa: E402
+from generate import linked, write_all  # noqa: E402
 from sphinx.application import Sphinx  # noqa: E402
 
 from shearbox_tools import __version__  # noqa: E402
@@ -31,7 +31,14 @@ nitpicky = True
 smartquotes = False  # words of decks stay as they are
 
 
+def _link(_: Sphinx, page: str, source: list[str]) -> None:
+    """Sphinx takes what it reads of a page from the first of the list."""
+    if not page.startswith("generated/"):
+        source[0] = linked(source[0])
+
+
 def setup(app: Sphinx) -> None:
     """Math as MathML, and the pages that are made of the sources."""
     mathml.add_to(app)
     app.connect("builder-inited", lambda _: write_all(HERE / "generated"))
+    app.connect("source-read", _link)

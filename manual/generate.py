@@ -8,11 +8,18 @@ from pathlib import Path
 
 from shearbox_tools.asking.models import INPUT
 from shearbox_tools.asking.parameters import parameters
+from shearbox_tools.asking.request import OWN_OPTION
 from shearbox_tools.commands.cli import make_parser
 
 ROOT = Path(__file__).resolve().parents[1]
 _SPECIAL = re.compile(r"([\\`*_{}\[\]<>#$|~])")
 WIDTH = 100  # of the texts of --help
+OF_SOURCES = {  # pages by what links of the manual's Markdown name, which is read in the repository as well
+    "../README.md#use": "styles",
+    "../input/parameters.in": "parameters",
+    "../input/shear.in": "columns",
+    "../examples": "cases",
+}
 CASES = ("pour", "hopper", "pile", "biaxial", "simple_shear")  # of examples/, other tests than direct shear
 
 
@@ -43,6 +50,14 @@ def write_all(folder: Path) -> None:
     for file in folder.glob("*.md"):
         if file.stem not in pages:
             file.unlink()
+
+
+def linked(text: str) -> str:
+    """A page of the manual, whose links to sources lead to the pages that are made of them."""
+    made = OF_SOURCES | {f"../{header.relative_to(ROOT)}": style_name(header) for header in style_headers()}
+    return re.sub(
+        r"\]\((\.\./[^)]+)\)", lambda link: f"](generated/{made[link[1]]})" if link[1] in made else link[0], text
+    )
 
 
 def style_headers() -> list[Path]:
@@ -125,7 +140,8 @@ def parameters_page() -> str:
     rows = ["| name | value | may be | meaning |", "|---|---|---|---|"]
     for one in parameters().values():
         value = "of the model" if one.value is None else f"`{one.value}`"
-        rows.append(f"| `{one.name}` | {value} | {_plain(one.allowed)} | {_plain(one.meaning.strip())} |")
+        meaning = _plain(one.meaning.strip()) + f"; by `{OWN_OPTION.get(one.name)}`" * (one.name in OWN_OPTION)
+        rows.append(f"| `{one.name}` | {value} | {_plain(one.allowed)} | {meaning} |")
     return "# Parameters\n\nVariables of the decks and of models, in SI units.\n\n" + "\n".join(rows) + "\n"
 
 

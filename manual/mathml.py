@@ -30,5 +30,5 @@ def mathml(formula: str, block: bool) -> str:
 def _write(writer: Any, node: nodes.Node) -> None:
     block = isinstance(node, nodes.math_block)
     formula = mathml(" ".join(node.astext().split()), block)
-    writer.body.append(f'<div style="overflow-x: auto">{formula}</div>' if block else formula)
+    writer.body.append(f'<div style="overflow: auto hidden">{formula}</div>' if block else formula)
     raise nodes.SkipNode

@@ -13,9 +13,12 @@
 //   kn, ks         normal and tangential stiffness, N/m; kn > 0, ks >= 0
 //   hn, hs         damping ratios of the pair (no unit), >= 0; the dashpot is 2 h sqrt(m k), N s/m
 //   phi            friction angle, degrees, 0 <= phi < 90
-//   rolling        rolling resistance: coefficient mu_r and damping ratio h_r of its dashpot (no unit), >= 0; see
-//                  core/laws/rolling_resistance.h. Contacts of types that do not name it have none (default)
-//   cohesion       constant pull-off force F_c of discs that touch, N, >= 0; see core/laws/cohesion.h. Default: none
+//   rolling        rolling resistance: coefficient mu_r and damping ratio h_r of its dashpot (no unit), >= 0. Its
+//                  spring has the stiffness 3 kn (mu_r R)^2 and bears a torque up to mu_r R kn overlap, where R is
+//                  r_i r_j/(r_i + r_j), half the radius of equal discs (Ai, Chen, Rotter & Ooi 2011, type C). Contacts
+//                  of types that do not name it have none (default)
+//   cohesion       constant pull-off force F_c of discs that touch, N, >= 0: the normal force is kn overlap - F_c, and
+//                  friction has its limit from kn overlap alone (Gilabert, Roux & Castellanos 2007). Default: none
 //
 // m is m_i m_j/(m_i + m_j), or m_i against a wall: an atom outside the group of fix cdem/integrate. Walls never act on
 // each other.

@@ -13,7 +13,7 @@ _NUMBER = r"(\d{1,5}(?:\.\d{1,4})?)"
 _NAME = re.compile(
     rf"Type[A-D]_{_NUMBER}x{_NUMBER}_(?:T-{_NUMBER}|{_NUMBER}-{_NUMBER})_([13])-circle_(\d{{1,8}}|auto)", re.ASCII
 )
-# by discs of a grain: template; power of the size law and loose column over the box, as of the paper's models
+# by discs of a grain: template; power of the size law and loose column over the box, chosen for the 14 models
 _GRAINS = {"1": ("single", -3, 1.8, "single discs"), "3": ("triple", 0, 2.2, "grains of three discs")}
 _ROOM = 1.05  # least height of a loose column over that of the rows of grains in it
 
