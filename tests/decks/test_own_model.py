@@ -142,6 +142,17 @@ def test_a_test_that_cannot_be_is_refused(folder: Path, asked: dict[str, float])
     assert 250 * WIDTH <= float(found[1]) <= 250 * WIDTH + 4
 
 
+def test_halves_do_not_travel_past_each_other(tmp_path: Path) -> None:
+    """However long the flanges are: of the area between the halves nothing would be left. Nor is a test all ramp."""
+    (tmp_path / "loose.in").write_text(LOOSE)
+    options: dict[str, Any] = OPTIONS | {"models": tmp_path, "model": "loose", "flanges": 1.2, "rest": 0.05}
+    consolidate(tmp_path, **options)
+    status, output = start(SHEAR, tmp_path, **options, travel=50)
+    assert status != 0 and "ERROR: travel 50 mm: must be less than the width of the box, 50 mm" in output
+    status, output = start(SHEAR, tmp_path, **options, ramp=0.5)
+    assert status != 0 and "ERROR: ramp 0.5 must be from 0 to 0.4" in output
+
+
 def test_frames_that_would_leave_out_the_end_are_refused(folder: Path) -> None:
     options: dict[str, Any] = TEST | {"models": folder, "frames": 3}
     status, output = start(SHEAR, folder, **options)

@@ -234,7 +234,7 @@ def test_a_bad_file_among_the_models_costs_no_other(
     "old, new, message",
     [
         ("index 27 ", "index 95 ", "parameters.in: phi 95: 0 to 89 is expected: friction angle between"),
-        ("index 0.25 ", "index wide ", "parameters.in: flanges wide: 0.01 to 2 is expected"),
+        ("index 0.25 ", "index wide ", "parameters.in: flanges wide: 0.01 to 0.9 is expected"),
         ("variable kn ", "variable kN ", "parameters.in: there is no variable kn with what it may be in [ ]"),
         ("[1e3 to 1e12]", "[1e3 to many]", "parameters.in: kn 1.0e8: 1e3 to many is expected"),
     ],

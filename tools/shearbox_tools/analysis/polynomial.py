@@ -5,7 +5,9 @@ The paper simplifies its shear stress curves by "a polynomial" and takes the pea
 
 1. Rows of a DEM curve are not independent (a force chain lives for many rows). The integrated correlation length of
    the residuals of the highest degree is measured, and the curve is averaged over blocks of four times that length,
-   so that the blocks may be taken as independent (neighbours then correlate by 0.16 if correlation is exponential).
+   so that the blocks may be taken as independent (neighbours then correlate by 0.16 if correlation is exponential). There
+   are three blocks for each coefficient at least: beyond a length of a hundredth of the rows the blocks are shorter than that,
+   and errors too small. With 8, 15 and 30 of 800 rows the deviation from a known peak was 1.2, 1.5 and 2.1 times what is told.
 2. On the blocks, degrees 2 to 6 are fitted by least squares and compared by BIC = n ln(RSS/n) + k ln n, k = number of
    coefficients + 1 (Schwarz 1978). On curves of known peak with correlated noise, BIC had a smaller error at the peak
    than AICc and leave-one-out, which follow the noise more, and so had a bound of 6 against one of 8. With 6 the

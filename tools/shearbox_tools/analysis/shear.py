@@ -181,7 +181,8 @@ def _edge_remark(name: str, peak: Peak) -> list[str]:
         return []
     if peak.falls:
         return [
-            f"{name} falls from {peak.position:.2f} mm on, where its polynomial is first held: taken is its value there"
+            f"{name} falls from {peak.position:.2f} mm on, where its polynomial is first held: taken is its value there, and a peak before it may be "
+            "higher; the zone is a twentieth of the travel, so shear less far to see it"
         ]
     return [f"{name} has no peak within the travel; its greatest value is taken"]
 

@@ -29,7 +29,7 @@ ASIDE = 0.1  # shown beside the grains, of their width; the flanges go on
 
 @dataclass(frozen=True)
 class Stills:
-    """A specimen before shear, at the peak of the shear stress, and at the end."""
+    """A specimen before shear, in the frame that is nearest to the peak of the shear stress, and at the end."""
 
     before: Moment
     peak: Moment
