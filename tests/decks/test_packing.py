@@ -18,7 +18,7 @@ from input_decks import INPUT
 from shearbox_tools.asking.models import find_model
 from shearbox_tools.asking.named import model_text
 from shearbox_tools.asking.parameters import parameters
-from shearbox_tools.base.files import PACKED_RESTART, PACKED_TABLE
+from shearbox_tools.base.files import CONSOLIDATED_TABLE, PACKED_RESTART, PACKED_TABLE, SHEAR_TABLE
 from shearbox_tools.base.presets import DENSITIES, PACKING_FRICTION
 from shearbox_tools.base.restarts import step_of
 from shearbox_tools.reading.readers import read_row
@@ -54,6 +54,24 @@ def test_the_same_bits_on_any_ranks(tmp_path: Path) -> None:
         ends.append(run(compact, tmp_path / str(ranks), ranks=ranks, **options).end)
     assert all(set(ends[0].columns) == set(end.columns) for end in ends)
     assert all((ends[0][name] == end[name]).all() for end in ends for name in end.columns)
+
+
+def test_ranks_share_the_grains_and_the_bits(tmp_path: Path) -> None:
+    """Of four ranks with equal shares of the box, side by side, two would have flanges and no grains."""
+    name, written = "TypeA_6x1_2-4_1-circle_auto", []
+    pack(tmp_path, name)
+    for ranks in (1, 4):
+        folder = tmp_path / str(ranks)
+        _, options = deck(folder, name)
+        for phase in ("consolidate", "shear"):
+            text = (INPUT / f"{phase}.in").read_text(encoding="utf-8")
+            given: dict[str, Any] = {"packed": tmp_path / PACKED_RESTART, "speed": 200, "travel": 0.1}
+            out = run(text, folder, ranks=ranks, **options | given, rows=4, frames=1)
+            if ranks == 4:
+                found = re.search(r"initial/final imbalance factor += ([\d.]+) ([\d.]+)", out.log)
+                assert found and float(found[1]) > 1.8 and float(found[2]) < 1.2
+        written.append([(folder / name).read_bytes() for name in (CONSOLIDATED_TABLE, SHEAR_TABLE)])
+    assert written[0] == written[1]
 
 
 def test_a_high_box_is_even_and_takes_few_steps(tmp_path: Path) -> None:

@@ -110,14 +110,14 @@ bool FixCDEMGrains::scene_is_as_kept() {
     mine &= std::fabs(shift.x) <= most && std::fabs(shift.y) <= most; // not if it is NaN
   }
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MIN, world);
-  if (!all || kept.grains != fingerprint_of_grains() || kept.rules != fingerprint_of_rules())
+  if (!all || kept.grains != fingerprint_of_grains())
     return false;
   for (int i = 0; i < atom->nlocal; i++)
     if (!shift_from_kept(i).periods) {
       atom->x[i][0] = state[i][X];
       atom->x[i][1] = state[i][Y];
     }
-  return true;
+  return kept.rules == fingerprint_of_rules();
 }
 
 bool FixCDEMGrains::moved_against_each_other() const {
