@@ -139,6 +139,15 @@ def test_a_model_whose_own_name_has_a_blank_is_refused(tmp_path: Path) -> None:
         packing(tmp_path / "results", Request(read_model(path), (100.0,)))
 
 
+def test_lammps_counts_no_further() -> None:
+    """8 mm in steps of some 8.3e-7 s: 2^31 of them at 0.0045 mm/s."""
+    check(replace(request(), speed=0.01))
+    with pytest.raises(
+        InputError, match=r"--speed 0.001: some 9.7e\+09 steps; at most 2.15e\+09 are .* faster than 0.0045"
+    ):
+        check(replace(request(), speed=0.001))
+
+
 def test_a_half_travels_as_far_as_its_flanges_are_long() -> None:
     """The decks say how long, or the command line."""
     check(request())

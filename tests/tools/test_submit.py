@@ -273,6 +273,19 @@ def test_a_limit_is_twice_the_estimate_and_ten_minutes_but_none_is_longer_than_a
         Layout(specimens(1), Cluster(hours=0.01, file=Path("short.toml")), None, 1)
 
 
+def test_the_notice_is_enough_for_the_phase_that_listens_least_often() -> None:
+    """A million discs, sheared fast, end sooner after a row of shear than after 1000 steps of packing, at 45 ns a disc and step."""
+    asked = replace(
+        REQUEST,
+        model=find_model("TypeD_330x105_2-4_1-circle_1000000"),
+        speed=200.0,
+        travel=1.0,
+        settings={"frames": "1"},
+    )
+    layout = Layout(planned(Path("results"), asked, range(1, 2), False), Cluster(), None, 1)
+    assert layout.notice > 60 + 2 * 2 * 1000 * 45e-9 * 1e6
+
+
 def test_what_does_not_fit_on_a_node_is_refused() -> None:
     with pytest.raises(InputError, match="--jobs 8: 6 of 8 ranks fit on the 48 cores of a node"):
         Layout(specimens(8), Cluster(cores=48), 8, 8)

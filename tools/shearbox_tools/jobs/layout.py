@@ -7,7 +7,6 @@ from functools import cached_property
 
 from ..base.errors import InputError
 from ..running.forecast import Forecast, memory_of_all, seconds_of_all
-from ..running.phases import SHEAR, rows_of_shear
 from ..running.run_folders import Run
 from .cluster import Cluster
 
@@ -65,12 +64,10 @@ class Layout:
 
     @cached_property
     def notice(self) -> int:
-        """Seconds before the limit at which to ask for the end: a row of shear, with the margin, twice; and seals."""
-        rows = [
-            one.work(phase) for some in self.forecasts for one in some for phase in one.phases if phase.name == SHEAR
-        ]
+        """Seconds before the limit at which to ask for the end: the longest wait, with the margin, twice; and seals."""
+        waits = [one.longest_wait(phase) for some in self.forecasts for one in some for phase in one.phases]
         sealing = max(sum(one.bytes_of_frames for one in some) for some in self.forecasts) / BYTES_SEALED
-        return math.ceil(LEAST_NOTICE + 2 * SAFETY_FACTOR * max(rows) / rows_of_shear() + sealing)
+        return math.ceil(LEAST_NOTICE + 2 * SAFETY_FACTOR * max(waits) + sealing)
 
     @property
     def minutes(self) -> int:

@@ -12,10 +12,12 @@ from ..base.errors import InputError
 from ..base.files import SHEAR_TABLE
 from ..base.numerals import number
 from ..base.presets import STRESSES
+from .forecast import time_step
 from .phases import frames_of, rows_of_shear
 
 # A packed specimen, in half heights: the lid stays in the upper half, and the grains fit into the loose column.
 LOWEST, HIGHEST = 1.2, 2.4
+MOST_STEPS = 2**31 - 1
 
 
 def check(request: Request) -> None:
@@ -121,8 +123,21 @@ def _digit_problems(option: str, value: float) -> list[str]:
     return [f"{option} {value!r}: at most six digits are expected, such as {value:g}"]
 
 
+def _step_problems(request: Request) -> list[str]:
+    """LAMMPS counts the steps of a run with 32 bits."""
+    if _option_problems(request) or not (request.travel > 0 and request.speed > 0):
+        return []
+    steps = request.travel / request.speed / time_step(request)
+    if steps < MOST_STEPS:
+        return []
+    return [
+        f"--travel {request.travel:g} --speed {request.speed:g}: some {steps:.2g} steps; at most {MOST_STEPS:.3g} are expected: "
+        f"shear by less, or faster than {request.speed * steps / MOST_STEPS:.2g} mm/s"
+    ]
+
+
 def _shear_problems(request: Request) -> list[str]:
-    problems = []
+    problems = _step_problems(request)
     width = request.model.width * 1000
     share = number({**read_variables(PARAMETERS), **request.settings}["flanges"])
     if not 0.001 <= request.speed <= 1000:

@@ -20,7 +20,7 @@ from ..base.restarts import step_of
 from ..base.words import about, amount, duration
 from ..reading.readers import last_value
 from .disk import bytes_of_frames
-from .phases import CONSOLIDATE, PACK, SHEAR, Phase, frames_of, packing, shearing
+from .phases import CONSOLIDATE, PACK, SHEAR, Phase, frames_of, packing, rows_of_shear, shearing
 
 SECONDS = {PACK: 45e-9, CONSOLIDATE: 25e-9, SHEAR: 25e-9}  # a disc and step; loose grains need new lists all the time
 SECONDS_PER_DISC_AND_FRAME = 18e-6
@@ -28,6 +28,7 @@ BYTES_PER_DISC, BYTES_PER_RANK = 2.6e3, 45e6  # of memory, half of the former fo
 # for each disc of a grain; those of packing times the root of the height in smallest grains, as was measured: a high box takes
 # waves longer to cross
 STEPS_OF_PACKING, STEPS_OF_CONSOLIDATION = 6_000, 10_000
+STEPS_OF_ROW = 33  # that a row of shear.dat takes as long as: every grain and contact is in its means
 # with a step smaller than usual, over their ratio: stiff contacts need more, large grains that dt_max holds less
 MORE_STEPS = 0.6
 
@@ -109,8 +110,16 @@ class Forecast:
     def work(self, phase: Phase) -> float:
         """Time of a whole phase. Frames are written by one rank."""
         frames = frames_of(phase.variables) if phase.frames else 0
-        pace = self._slowness * SECONDS[phase.name]
-        return self._discs * (self._steps(phase) * pace / self._ranks + frames * SECONDS_PER_DISC_AND_FRAME)
+        rows = rows_of_shear() if phase.name == SHEAR else 0
+        steps = self._steps(phase) + STEPS_OF_ROW * rows
+        return self._discs * (
+            steps * self._slowness * SECONDS[phase.name] / self._ranks + frames * SECONDS_PER_DISC_AND_FRAME
+        )
+
+    def longest_wait(self, phase: Phase) -> float:
+        """Time until a phase that is asked to end does: it looks after each row of shear, or as grains are checked for rest."""
+        steps = number((read_variables(PARAMETERS) | self._request.settings)["check"])
+        return self.work(phase) / (rows_of_shear() if phase.name == SHEAR else max(1.0, self._steps(phase) / steps))
 
     def share_done(self, phase: Phase) -> float:
         """The part of a phase that is done, from 0 to 1, up to its latest restart file: what is behind that is done again. Of one that
