@@ -286,6 +286,13 @@ def test_the_notice_is_enough_for_the_phase_that_listens_least_often() -> None:
     assert layout.notice > 60 + 2 * 2 * 1000 * 45e-9 * 1e6
 
 
+def test_a_report_of_large_tests_has_time() -> None:
+    """Of a million discs at one stress it took 3.8 minutes; of 32 such tests two hours, in a job that has twice that and half an hour."""
+    asked = replace(REQUEST, model=find_model("TypeD_330x105_2-4_1-circle_1000000"), settings={"frames": "1"})
+    layout = Layout(planned(Path("results"), asked, range(1, 9), False), Cluster(), None, 1)
+    assert 30 + 2 * 32 * 3.8 < layout.report_minutes < 400
+
+
 def test_what_does_not_fit_on_a_node_is_refused() -> None:
     with pytest.raises(InputError, match="--jobs 8: 6 of 8 ranks fit on the 48 cores of a node"):
         Layout(specimens(8), Cluster(cores=48), 8, 8)

@@ -317,7 +317,7 @@ def _note_cores(jobs: int, ranks: int, console: Console) -> None:
 
 def check_disk(folder: Path, forecasts: list[Forecast]) -> None:
     """Refuse to begin what will not fit."""
-    need, free = sum(forecast.bytes for forecast in forecasts) + SPARE_BYTES, free_bytes(folder)
+    need, free = sum(forecast.disk for forecast in forecasts) + SPARE_BYTES, free_bytes(folder)
     if free < need:
         raise InputError(f"--out {folder}: about {amount(need)} will be written, {amount(free)} are free")
 

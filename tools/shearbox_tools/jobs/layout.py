@@ -14,9 +14,8 @@ SAFETY_FACTOR = 2  # of a job's limit: estimates are good to a factor of 2
 SECONDS_AROUND = 600  # for the beginning and the end of a job
 ROUND_MINUTES = 10  # limits are multiples of it
 LEAST_NOTICE = 60  # s
-BYTES_SEALED = 1e8  # in a second: all dumps are read once when tests are stopped
+BYTES_SEALED = 1e8  # in a second: all dumps are read once when tests are stopped, and for a report
 REPORT_MINUTES = 30
-BYTES_REPORTED = 1e7  # in a second
 LEAST_NOTICES = 3  # in a job, else it would hardly do anything
 
 
@@ -77,9 +76,10 @@ class Layout:
 
     @property
     def report_minutes(self) -> int:
-        """That the report may take."""
-        written = sum(one.bytes_of_frames for some in self.forecasts for one in some)
-        return _rounded_up(REPORT_MINUTES + written / BYTES_REPORTED / 60)
+        """That the report may take: it draws all tests, and reads all their files for seals."""
+        every = [one for some in self.forecasts for one in some]
+        seconds = sum(one.seconds_of_report + one.bytes_of_frames / BYTES_SEALED for one in every)
+        return _rounded_up(REPORT_MINUTES + SAFETY_FACTOR * seconds / 60)
 
 
 def _rounded_up(minutes: float) -> int:

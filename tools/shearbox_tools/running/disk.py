@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How much the frames of a test take on the disk, roughly."""
+"""How much the files of a test take on the disk, roughly."""
 
 from ..asking.models import PARAMETERS, read_variables
 from ..asking.request import Request
@@ -8,6 +8,7 @@ from .phases import frames_of
 
 # in the four dumps of a frame together; the former with its share of contacts and cells
 BYTES_PER_DISC, BYTES_PER_WALL_DISC = 350, 120
+BYTES_OF_RESTART = 380  # for a disc, of a restart file
 HALF_HEIGHTS = 2.5  # of the sides: compact.in leaves half of one above the lid
 
 

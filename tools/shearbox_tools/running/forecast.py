@@ -19,11 +19,12 @@ from ..base.numerals import number
 from ..base.restarts import step_of
 from ..base.words import about, amount, duration
 from ..reading.readers import last_value
-from .disk import bytes_of_frames
+from .disk import BYTES_OF_RESTART, bytes_of_frames
 from .phases import CONSOLIDATE, PACK, SHEAR, Phase, frames_of, packing, rows_of_shear, shearing
 
 SECONDS = {PACK: 45e-9, CONSOLIDATE: 25e-9, SHEAR: 25e-9}  # a disc and step; loose grains need new lists all the time
 SECONDS_PER_DISC_AND_FRAME = 18e-6
+SECONDS_PER_DISC_REPORTED = 240e-6  # of a test (tests/validation/ranks)
 BYTES_PER_DISC, BYTES_PER_RANK = 2.6e3, 45e6  # of memory, half of the former for frames (tests/validation/ranks)
 # for each disc of a grain; those of packing times the root of the height in smallest grains, as was measured: a high box takes
 # waves longer to cross
@@ -78,13 +79,24 @@ class Forecast:
 
     @property
     def bytes(self) -> float:
-        """That will still be written."""
+        """Of frames that will still be written."""
         return sum((1 - self.share_done(phase)) * size for phase, size in self._frames)
+
+    @property
+    def disk(self) -> float:
+        """Bytes that will still be needed: frames, a restart file of each phase that is not done, and two more of one under way."""
+        left = sum(not phase.done for phase in self.phases)
+        return self.bytes + (left + 2 * (left > 0)) * BYTES_OF_RESTART * self._discs
 
     @property
     def bytes_of_frames(self) -> float:
         """Of tests that are not done, as large as they will be in the end."""
         return sum(size for phase, size in self._frames if not phase.done)
+
+    @property
+    def seconds_of_report(self) -> float:
+        """That drawing all tests takes."""
+        return self.tests * self._discs * SECONDS_PER_DISC_REPORTED
 
     @property
     def tests(self) -> int:
@@ -184,7 +196,7 @@ def total(forecasts: Sequence[Forecast], jobs: int) -> str:
     paces = sorted({f"{1e9 * f.pace:.0f}" for f in forecasts}, key=float)
     return (
         f"{about(seconds_of_all(forecasts, jobs))} {how}, without the report; "
-        f"{amount(memory_of_all(forecasts, jobs))} of memory, {amount(sum(f.bytes for f in forecasts))} of disk (an estimate from "
+        f"{amount(memory_of_all(forecasts, jobs))} of memory, {amount(sum(f.disk for f in forecasts))} of disk (an estimate from "
         f"{' to '.join(dict.fromkeys([paces[0], paces[-1]]))} ns a disc and step of shear, good to a factor of 2)"
     )
 
